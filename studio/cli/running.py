@@ -169,6 +169,32 @@ def explain(
 
 
 @commands.command()
+def aggregate(
+    runs: Annotated[str, typer.Argument(help="Numbers of up to eight runs, with commas.")],
+    channel: Annotated[str, typer.Argument(help="vehicle.quantity, such as leader.speed.")],
+    begin: Annotated[float | None, typer.Option("--begin", help="[s] From then on; from the beginning without it.")] = None,
+    end: Annotated[float | None, typer.Option("--end", help="[s] Until then; to the end without it.")] = None,
+    event: Annotated[str, typer.Option("--event", help="A kind of events: also the value at the first of them.")] = "",
+    db: Db = DEFAULT_DB,
+    as_json: AsJson = False,
+) -> None:
+    """Tells a recorded channel in a few numbers: least, greatest and mean value, percentiles, the value at an event."""
+    from studio.assess.aggregate import MEANINGS
+    from studio.store.aggregate import aggregated
+    from studio.store.comparison import numbers
+
+    found = aggregated(existing(db), numbers(runs), channel, begin=begin, end=end, event=event)
+    if as_json:
+        print_json([each._asdict() | {"aggregates": [one._asdict() for one in each.aggregates]} for each in found])
+        return
+    print_table(
+        [with_unit(channel, found[0].unit), *(f"run {each.run}" for each in found), "is"],
+        [[kind, *(text(each.aggregates[i].value) for each in found), MEANINGS[kind]] for i, kind in enumerate(MEANINGS)],
+    )
+    print("".join(f"run {each.run}: {each.samples} samples from {each.begin:g} to {each.end:g} s\n" for each in found), end="")
+
+
+@commands.command()
 def compare(
     a: Annotated[int, typer.Argument(help="Number of a run.")],
     b: Annotated[int, typer.Argument(help="Number of another run.")],
@@ -197,7 +223,7 @@ def compare(
     print(result["unranked"] or f"same: differs by less than {100 * result['alike']:g} %")
 
 
-Form = Literal["fcd", "csv", "parquet", "channels"]
+Form = Literal["fcd", "csv", "parquet", "channels", "mcap"]
 
 
 @commands.command()
@@ -209,6 +235,7 @@ def export(
         typer.Option(
             "--format",
             help="Trajectories: fcd (SUMO's floating car data, .xml) or csv. All recorded channels: parquet, or channels (a .csv table). "
+            "mcap: channels, scene, events and messages for Foxglove. "
             "Left out: by the ending of the file, csv for .csv.",
         ),
     ] = None,
@@ -218,11 +245,14 @@ def export(
     """Writes a run for other programs: trajectories of the recorded vehicles, with recording.traffic of all, or all that was recorded."""
     from studio.store import trace
     from studio.store.export import export as exported
+    from studio.store.mcap import mcap
 
     form = format_of(out, format_)
     runs = existing(db)
     if form == "parquet":
         parts = iter([runs.parquet(run)])
+    elif form == "mcap":
+        parts = mcap(runs, run)
     else:
         texts = trace.lines(runs.parquet(run)) if form == "channels" else exported(runs, run, form, as_degrees=as_degrees)
         parts = (each.encode() for each in texts)
@@ -231,7 +261,7 @@ def export(
     print(f"{out}: the {what} of run {run}, {out.stat().st_size / 1e6:.1f} MB")
 
 
-ENDINGS: dict[Form, str] = {"fcd": ".xml", "csv": ".csv", "parquet": ".parquet", "channels": ".csv"}  # of an exported run
+ENDINGS: dict[Form, str] = {"fcd": ".xml", "csv": ".csv", "parquet": ".parquet", "channels": ".csv", "mcap": ".mcap"}  # of an exported run
 
 
 def format_of(out: Path, named: Form | None) -> Form:

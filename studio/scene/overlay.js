@@ -2,7 +2,7 @@
  *
  * The page posts     {studio: "cast", cars: [{name, index, color, length, width, height, middle}]}
  *                    {studio: "layers", on: [name, ...]}
- *                    {studio: "seen", layers: {cars, fields, messages, trails, paths} | null}   as the server tells it
+ *                    {studio: "seen", layers: {cars, fields, messages, trails, paths, links} | null}   as the server tells it
  *                    {studio: "marks", marks: {lines: [{points, closed, strong, filled}], knobs, words: [{at, text, strong}], told}}   of the editor
  *
  * It is drawn when the scene has been drawn, where that has the cars, so that nothing lags behind them; and when one of these comes. Nothing
@@ -11,7 +11,7 @@
 (() => {
   "use strict";
 
-  const LAYERS = ["speed", "trails", "paths", "sensors", "gaps", "messages", "lamps", "names", "notices"]; // from below to above
+  const LAYERS = ["speed", "trails", "paths", "sensors", "gaps", "ghosts", "messages", "lamps", "names", "notices"]; // from below to above
   const NEAR = 0.2; // [m] before the eye, where lines are cut
   const NAMES = { own: 600, traffic: 90 }; // [m] from the eye
   const FONT = '600 12px system-ui, -apple-system, "Segoe UI", sans-serif';
@@ -161,6 +161,25 @@
         if (at && at[2] < NAMES.own && (!isTraffic(car) || at[2] < NAMES.traffic)) plate(ink, at, `${known.gap.toFixed(1)} m`, "#101418");
         count++;
       }
+      return count;
+    },
+
+    // to the same car of the other runs that are among these
+    ghosts(ink) {
+      let count = 0;
+      ink.setLineDash([5, 4]);
+      for (const link of state.seen?.links ?? []) {
+        const pose = poseOf(link.car);
+        if (!pose) continue;
+        const from = [pose.x, pose.y, pose.z + 0.9], to = [link.x, link.y, link.z + 0.9];
+        ink.strokeStyle = link.color;
+        ink.lineWidth = 2;
+        if (trace(ink, [from, to])) ink.stroke();
+        const at = spot(from.map((value, i) => (value + to[i]) / 2));
+        if (at && at[2] < NAMES.own) plate(ink, at, `${link.distance.toFixed(1)} m`, "#101418");
+        count++;
+      }
+      ink.setLineDash([]);
       return count;
     },
 

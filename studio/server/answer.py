@@ -278,6 +278,27 @@ class Stretch(BaseModel):
     metrics: dict[str, Metric]
 
 
+class Aggregate(BaseModel):
+    """One number about the samples of a channel."""
+
+    kind: Literal["min", "max", "mean", "p5", "p95", "at_event"]
+    value: float | None = Field(description="in the unit of the channel; null where no sample is a number, or without an event")
+    time: float | None = Field(description="[s] when it was, of what was at a time")
+    meaning: str = Field(description="how it is made, in words")
+
+
+class Aggregated(BaseModel):
+    """A channel of a run in a few numbers."""
+
+    run: int
+    unit: str
+    begin: float = Field(description="[s] the first sample in it")
+    end: float = Field(description="[s] the last sample in it")
+    samples: int = Field(description="how many of them are numbers")
+    moment: float | None = Field(description="[s] when the event was")
+    aggregates: list[Aggregate]
+
+
 class Run(BaseModel):
     """A run in the database; `parameters` are those that were set, by path."""
 
@@ -796,6 +817,18 @@ class LayerLine(BaseModel):
     lifts: list[float] = Field([], description="how high above the land each lies [m]; none where all lie on it")
 
 
+class LayerLink(BaseModel):
+    """A line from a car to the same one of another run, a ghost."""
+
+    car: int
+    run: int = Field(description="the other run")
+    color: str = Field(description="of its ghosts, #rrggbb")
+    x: float = Field(description="[m] of the ghost")
+    y: float = Field(description="[m]")
+    z: float = Field(description="[m] of the road as it is drawn")
+    distance: float = Field(description="[m] from one to the other, seen from above")
+
+
 class Layers(BaseModel):
     """What can be drawn over the scene at a time."""
 
@@ -805,6 +838,7 @@ class Layers(BaseModel):
     messages: list[LayerMessage]
     trails: list[LayerLine] = Field(description="where cars came from, the oldest point first")
     paths: list[LayerLine] = Field(description="where their ways lead")
+    links: list[LayerLink] = Field([], description="to the ghosts of a run that is played back")
 
 
 class Moment(BaseModel):

@@ -1,7 +1,8 @@
 """Ghosts: the named cars of other runs that are over, on the clock of the one that is played back."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from math import hypot
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,7 @@ from studio.execution.record import SAME_TIME
 from studio.scene import pose
 from studio.scene.fleet import Look
 from studio.scene.ghost import COLOURS
+from studio.server import answer
 from studio.server.frame import looks
 from studio.server.replay import Replay
 
@@ -37,6 +39,16 @@ class Ghost:
         if not times[0] - SAME_TIME <= own <= times[-1] + SAME_TIME:
             found[pose.VISIBLE] = 0.0
         return found
+
+    def links(self, played: Replay, time: float) -> Iterator[answer.LayerLink]:
+        """From each car of the run that is played back at a time [s] to the same one of this, as far as both are there."""
+        own, theirs, number = played.frame(time).poses, self.poses(time), {name: i for i, name in enumerate(played.setting.names)}
+        for ghost, column in enumerate(self.columns):
+            car = number.get(self.replay.setting.names[column])
+            if car is not None and own[pose.VISIBLE, car] and theirs[pose.VISIBLE, ghost]:
+                x, y, z = (float(each) for each in theirs[[pose.X, pose.Y, pose.Z], ghost])
+                distance = hypot(x - own[pose.X, car], y - own[pose.Y, car])
+                yield answer.LayerLink(car=car, run=self.replay.run, color=self.color, x=x, y=y, z=z, distance=distance)
 
     def told(self) -> dict[str, Any]:
         """For the page."""

@@ -9,6 +9,7 @@ from starlette.responses import HTMLResponse, Response, StreamingResponse
 from starlette.websockets import WebSocketDisconnect
 
 from studio import job
+from studio.assess.aggregate import MEANINGS, Aggregate
 from studio.assess.beyond import stretches
 from studio.assess.compare import ALIKE
 from studio.errors import Problem, ScenarioError, StudioError, UnknownError, short
@@ -29,6 +30,7 @@ from studio.server.news import EndNews, News, RefusedNews
 from studio.server.worker import pace_factor
 from studio.source import code_version
 from studio.store import trace
+from studio.store.aggregate import aggregated
 from studio.store.comparison import beside, numbers
 from studio.store.comparison import compare as compare_runs
 from studio.store.explanation import explanation
@@ -36,6 +38,8 @@ from studio.store.export import MEDIA, Format, export
 from studio.store.ledger import MEDIA as LEDGER_MEDIA
 from studio.store.ledger import Form, ledger
 from studio.store.many import Given, Retag, judge_all, retag
+from studio.store.mcap import MEDIA as MCAP_MEDIA
+from studio.store.mcap import mcap
 from studio.store.queue import queue
 from studio.store.runs import LARGEST_RUN, Runs
 from studio.store.stretch import stretch
@@ -56,7 +60,10 @@ LEDGER: dict[int | str, dict[str, Any]] = {
     200: {"description": "a file", "content": {each: {"schema": {"type": "string", "format": "binary"}} for each in LEDGER_MEDIA.values()}}
 }
 RECORDING: dict[int | str, dict[str, Any]] = {
-    200: {"description": "a file", "content": {LEDGER_MEDIA[each]: {"schema": {"type": "string"}} for each in ("parquet", "csv")}}
+    200: {
+        "description": "a file",
+        "content": {each: {"schema": {"type": "string"}} for each in (LEDGER_MEDIA["parquet"], LEDGER_MEDIA["csv"], MCAP_MEDIA)},
+    }
 }
 MOST_CHOSEN, LONGEST_NUMBER = 10_000, 19  # runs that are named, and digits of each
 SOCKET: dict[int | str, dict[str, Any]] = {
@@ -329,7 +336,8 @@ def run_recording(
     run: int,
     kept: KeptRuns,
     form: Annotated[
-        Literal["parquet", "csv"], Query(alias="format", description="parquet: as it is kept, with units; csv: a table")
+        Literal["parquet", "csv", "mcap"],
+        Query(alias="format", description="parquet: as it is kept, with units; csv: a table; mcap: for Foxglove, with events and messages"),
     ] = "parquet",
     channels: Annotated[str, Query(description="of csv: names, separated by commas; all without it")] = "",
 ) -> Response:
@@ -338,6 +346,8 @@ def run_recording(
     named = {"Content-Disposition": f'attachment; filename="run_{run}.{form}"'}
     if form == "parquet":
         return Response(parquet, media_type=LEDGER_MEDIA["parquet"], headers=named)
+    if form == "mcap":
+        return StreamingResponse(mcap(kept, run), media_type=MCAP_MEDIA, headers=named)
     names = [name.strip() for name in channels.split(",") if name.strip()]
     return StreamingResponse(trace.lines(parquet, names), media_type="text/csv", headers=named)
 
@@ -415,6 +425,25 @@ def side_by_side(
 ) -> answer.SideBySide:
     """Several runs side by side."""
     return answer.SideBySide(**beside(kept, numbers(runs), everything=everything))
+
+
+@router.get("/aggregates")
+def aggregates(
+    runs: Annotated[str, Query(description="numbers of up to eight runs, with commas")],
+    kept: KeptRuns,
+    channel: Annotated[str, Query(description="vehicle.quantity, recorded in all of them")],
+    begin: Annotated[float | None, Query(description="[s] from then on; from the beginning without it", allow_inf_nan=False)] = None,
+    end: Annotated[float | None, Query(description="[s] until then; to the end without it", allow_inf_nan=False)] = None,
+    event: Annotated[str, Query(description="a kind of events: the value at the first of them")] = "",
+) -> list[answer.Aggregated]:
+    """A channel of runs in a few numbers: least, greatest and mean value, percentiles, the value at an event."""
+    found = aggregated(kept, numbers(runs), channel, begin=begin, end=end, event=event)
+    return [answer.Aggregated(**each._asdict() | {"aggregates": [aggregate_of(one) for one in each.aggregates]}) for each in found]
+
+
+def aggregate_of(found: Aggregate) -> answer.Aggregate:
+    """A number with how it is made."""
+    return answer.Aggregate(**found._asdict(), meaning=MEANINGS[found.kind])
 
 
 @router.get("/live")
@@ -539,5 +568,6 @@ def scene(wanted: answer.OnStage, desk: AtDesk, runs: KeptRuns) -> answer.SceneC
 @router.put("/scene/time")
 def scene_time(moment: answer.Moment, desk: AtDesk) -> answer.Shown:
     """Another time of the run that a scene plays back."""
-    played = desk.stages[moment.stage].seek(moment.run, moment.time)
-    return answer.Shown(shown=played is not None, layers=played.layers(moment.time) if played and moment.layers else None)
+    stage = desk.stages[moment.stage]
+    played = stage.seek(moment.run, moment.time)
+    return answer.Shown(shown=played is not None, layers=stage.layers(played, moment.time) if played and moment.layers else None)

@@ -8,6 +8,7 @@ import numpy as np
 
 from studio.job import Loaded, prepare
 from studio.scene.projection import Scene
+from studio.server import answer
 from studio.server.frame import Frame, first_frame, looks, places
 from studio.server.ghost import Ghost
 from studio.server.live import LiveRun
@@ -68,6 +69,11 @@ class Stage:
             self.draw(self.playing.frame(time))
             self.move_ghosts(time)
             return self.playing
+
+    def layers(self, played: Replay, time: float) -> answer.Layers | None:
+        """What can be drawn over the picture of a run that is played back at a time [s], with the lines to its ghosts."""
+        found = played.layers(time)
+        return found and found.model_copy(update={"links": [link for each in self.ghosts for link in each.links(played, time)]})
 
     def set_up(self, prepared: Setting) -> None:
         """City, vehicles and objects, as far as they are others than before; the weather."""

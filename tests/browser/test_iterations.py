@@ -97,6 +97,53 @@ def test_2_columns_are_hidden_and_moved_and_it_is_remembered(page):
     expect(page.get_by_role("button", name="Columns", exact=True)).to_be_visible()
 
 
+def test_2_columns_are_pinned_at_the_left_and_lie_beside_each_other(page):
+    """By the menu and by a key; scrolled to the side, each begins where the one before it ends, whatever is hidden or grows."""
+    page.set_viewport_size({"width": 700, "height": 800})
+    page.get_by_role("button", name="Columns").click()
+    page.get_by_label("Find a column").fill("headway")
+    page.get_by_role("button", name="Pin Headway [s]").click()
+    expect(page.get_by_role("button", name="Pin Headway [s]")).to_have_attribute("aria-pressed", "true")
+    page.keyboard.press("Escape")
+    page.get_by_role("columnheader", name="Standstill").get_by_role("button").focus()
+    page.keyboard.press("p")
+    expect(page.get_by_role("columnheader", name="Pinned")).to_be_visible()
+    page.reload()
+    expect(page.locator("tr[data-run]")).to_have_count(6)
+    heads = page.locator("thead tr:nth-child(2) th")
+    expect(heads.nth(2)).to_contain_text("Headway [s]")  # units come a moment after the runs
+    expect(heads.nth(3)).to_contain_text("Standstill")
+    side_by_side(page)
+    page.get_by_role("button", name="Columns").click()
+    page.get_by_label("Find a column").fill("headway")
+    page.get_by_role("checkbox", name="Headway [s]").uncheck()
+    page.keyboard.press("Escape")
+    expect(heads.nth(2)).to_contain_text("Standstill")
+    side_by_side(page)
+    page.get_by_role("button", name="Columns (1 hidden)").click()
+    page.get_by_role("button", name="As it was").click()
+    page.keyboard.press("Escape")
+    expect(page.get_by_role("columnheader", name="Pinned")).to_have_count(0)
+    page.set_viewport_size(SIZE)
+
+
+def side_by_side(page):
+    """Scrolled to the end, the first columns stand at the table's left edge without a gap or an overlap, head and cells alike."""
+    table = page.get_by_test_id("runs-table")
+    table.evaluate("each => { each.parentElement.scrollLeft = 1e6; }")
+    assert table.evaluate("each => each.parentElement.scrollLeft") > 100
+    staying = table.evaluate(
+        """each => [...each.querySelectorAll("thead tr:nth-child(2), tr[data-run='2']")].map((row) =>
+            [...row.children].filter((cell) => cell.matches(":first-child, [data-sticky]")).map((cell) => cell.getBoundingClientRect())
+                .map(({ left, right }) => [left, right]))"""
+    )
+    edge = table.evaluate("each => each.parentElement.getBoundingClientRect().left")
+    for row in staying:
+        assert len(row) >= 3
+        begins, ends = [left for left, _ in row], [right for _, right in row]
+        assert begins == pytest.approx([edge, *ends[:-1]], abs=0.6)
+
+
 def test_3_a_stroke_along_an_axis_is_the_filter(page):
     page.goto("/runs")
     page.get_by_text("Plot", exact=True).click()
@@ -123,6 +170,17 @@ def test_3_a_stroke_along_an_axis_is_the_filter(page):
     page.mouse.up()
     expect(page.get_by_label("Filter the runs")).to_have_value(re.compile(r"^headway >= .* and \S+ >= .* and \S+ <= \S+$"))
     page.get_by_label("Filter the runs").fill("")
+
+
+def test_3_what_is_plotted_is_a_table_too(page):
+    page.get_by_role("button", name="As table").focus()
+    page.keyboard.press("Enter")
+    table = page.get_by_role("dialog").get_by_role("table")
+    expect(table.get_by_role("columnheader", name="Headway [s]")).to_be_visible()
+    expect(table.get_by_role("row")).to_have_count(1 + 6)
+    expect(table.get_by_role("row", name=re.compile("^#2 "))).to_contain_text("0.4")
+    page.keyboard.press("Escape")
+    expect(page.get_by_role("dialog")).to_have_count(0)
 
 
 def test_4_the_lineage_says_what_was_changed(page):

@@ -30,8 +30,23 @@ def test_whom_and_why(tmp_path, sample):
         expect(lines.first).to_be_hidden()
         listed.locator("summary", has_text="Follower 1").first.click()
         expect(lines.first).to_be_visible()
+        in_numbers(page, client, run)
         assert complaints == []
         opened.close()
+
+
+def in_numbers(page, client, run):
+    """The numbers of a channel are those that REST tells, also between two times; what is no time is refused in its field."""
+    page.get_by_role("combobox", name="Channel").fill("leader.speed")
+    page.get_by_role("option", name="leader.speed [m/s]").click()
+    page.get_by_label("From [s]").fill("1,5")
+    asked = {"runs": run, "channel": "leader.speed", "begin": 1.5}
+    (told,) = client.get("/api/aggregates", params=asked).raise_for_status().json()
+    most = next(each["value"] for each in told["aggregates"] if each["kind"] == "max")
+    row = page.get_by_role("table", name="Numbers of leader.speed").get_by_role("row", name="Maximum")
+    expect(row.get_by_role("cell").first).to_have_text(f"{float(f'{most:.4g}'):g}")  # four digits, as the page writes numbers
+    page.get_by_label("From [s]").fill("soon")
+    expect(page.get_by_text("a number of seconds, such as 12.5")).to_be_visible()
 
 
 SPAN = {"speed": [0.0, 29.5], "acceleration": [-8.0, 4.0], "lateral_acceleration": [-3.0, 3.0], "yaw_rate": [-0.5, 0.5]}

@@ -87,6 +87,11 @@ def test_the_runs_of_a_comparison_drive_as_ghosts(place):
     expect(page.get_by_role("list", name="Ghosts of other runs")).to_contain_text("#2")
     frame = page.get_by_test_id("scene-frame").element_handle().content_frame()
     frame.wait_for_function("Object.keys(window.__viserSceneTree.getState()).some((name) => name.startsWith('/ghosts/body_'))")
+    page.get_by_role("button", name="Layers").click()
+    page.get_by_role("checkbox", name="Lines to ghosts").check()
+    page.keyboard.press("Escape")
+    drawn_over = page.frame_locator("iframe[title='3D scene']").get_by_role("img", name=re.compile("^Layers: "))
+    expect(drawn_over).to_have_attribute("aria-label", re.compile(r"ghosts [1-5]"))
     assert f"/studio/{scenario}?run=1&ghosts=" in page.url and "align=script_begun" in page.url
     assert complaints == []
     page.close()

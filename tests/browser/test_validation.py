@@ -44,7 +44,14 @@ def test_1_the_sample_is_calibrated_and_then_valid(page):
     expect(verdict).to_contain_text("8 of 8 criteria met")
     expect(verdict).to_contain_text("With the values of iteration 2.")
     expect(verdict).to_contain_text("Validated span: speed")
-    expect(page.get_by_role("figure", name="turn: yaw rate")).to_contain_text("6 recorded runs")
+    chart = page.get_by_role("figure", name="turn: yaw rate")
+    expect(chart).to_contain_text("6 recorded runs")
+    chart.get_by_role("button", name="As table").press("Enter")
+    table = page.get_by_role("dialog").get_by_role("table")
+    expect(table.get_by_role("columnheader", name="recorded [rad/s]")).to_be_visible()
+    assert 3 <= table.get_by_role("row").count() <= 201
+    page.keyboard.press("Escape")
+    expect(page.get_by_role("dialog")).to_have_count(0)
     expect(page.get_by_test_id("iterations").get_by_role("row")).to_have_count(4)
 
 

@@ -36,6 +36,26 @@ def test_a_ghost_is_where_its_run_was_and_traffic_is_none(sample, runs):
     assert np.abs(ghost.poses(4.0)[pose.X] - one.frame(4.0).poses[pose.X, :5]).max() > 0.5
 
 
+def test_every_car_is_joined_with_the_same_one_of_the_other_run(sample, runs):
+    """By name, at the distance between the two places; nobody with who is not there."""
+    one, other = played(runs, sample), played(runs, sample, applications__platoon__parameters__headway=1.2)
+    (ghost,) = haunting(one, [other], "")
+    own, theirs = one.frame(3.0).poses, other.frame(3.0).poses
+    links = list(ghost.links(one, 3.0))
+    assert [one.setting.names[each.car] for each in links] == list(one.setting.scenario.vehicles)
+    for each in links:
+        there = other.setting.names.index(one.setting.names[each.car])
+        assert (each.x, each.y) == (theirs[pose.X, there], theirs[pose.Y, there])
+        apart = np.linalg.norm(own[[pose.X, pose.Y], each.car].astype(float) - theirs[[pose.X, pose.Y], there].astype(float))
+        assert each.distance == pytest.approx(apart, abs=1e-6)
+        assert (each.run, each.color) == (other.run, ghost.color)
+    assert max(each.distance for each in links) > 0.1
+    (itself,) = haunting(one, [one], "")
+    assert all(each.distance == 0.0 for each in itself.links(one, 3.0))
+    (short,) = haunting(one, [played(runs, sample, clock__duration=2.0)], "")
+    assert list(short.links(one, 3.0)) == []
+
+
 def test_a_ghost_whose_run_is_over_is_not_there(sample, runs):
     one, short = played(runs, sample), played(runs, sample, clock__duration=2.0)
     (ghost,) = haunting(one, [short], "")

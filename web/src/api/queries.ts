@@ -202,6 +202,15 @@ export const stretch = (number: number, span: readonly [number, number] | undefi
     staleTime: Infinity,
   });
 
+/** A channel of runs in a few numbers, between two times [s] and at the first event of a kind. */
+export const aggregates = ({ runs, ...query }: { runs: readonly number[]; channel: string; begin: number | undefined; end: number | undefined; event: string }) =>
+  queryOptions({
+    queryKey: ["aggregates", runs, query],
+    queryFn: () => answer(client.GET("/api/aggregates", { params: { query: { runs: runs.join(","), ...query } } })),
+    staleTime: Infinity,
+    retry: false,
+  });
+
 /** Why things happened in a run that is over. */
 export const explanations = ({ run, status, events }: Pick<RunDetail, "run" | "status" | "events">) =>
   queryOptions({

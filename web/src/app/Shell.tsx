@@ -264,7 +264,7 @@ const KEYS: [string[], string][] = [
   [["↑", "↓", "j", "k"], "Move between rows of the runs or of the queue"],
   [["x"], "Select a row to compare"],
   [["X"], "Compare the rows that are selected"],
-  [["p"], "Pin the run of the row on top, or let it go"],
+  [["p"], "Pin the run of the row on top, or the column of the head at the left, or let it go"],
   [["b"], "Tint the metrics of the runs against that of the row"],
   [["c", "d"], "Make a run a candidate, or discard it, with a reason"],
   [["enter"], "Open the run of a row"],

@@ -2,7 +2,9 @@
 
 import { Text } from "@mantine/core";
 import { type ReactNode, useMemo, useSyncExternalStore } from "react";
+import { pairsOf, partOf } from "../model/sampled";
 import { formatNumber } from "../model/units";
+import { AsTable } from "./Sheet";
 import { Stroke } from "./Stroke";
 import type { Head } from "./TimeChart";
 import classes from "./TimeChart.module.css";
@@ -78,6 +80,7 @@ export function XYChart({ x, y, curves, version, lead, head }: Props) {
             <Stroke color={color} /> {label}
           </span>
         ))}
+        <AsTable sheet={() => sheetOf(x, y, curves)} />
       </figcaption>
       {curves.some(hasPoints) ? null : (
         <Text size="xs" c="dimmed">
@@ -114,6 +117,11 @@ export function XYChart({ x, y, curves, version, lead, head }: Props) {
       </svg>
     </figure>
   );
+}
+
+function sheetOf(x: string, y: string, curves: readonly Curve[]) {
+  const { rows, of } = pairsOf(curves);
+  return { title: `${y} over ${x}`, note: partOf(rows.length, of, "samples"), heads: ["Curve", "Time [s]", x, y], rows };
 }
 
 /** Whether there is anything to draw of a curve. */

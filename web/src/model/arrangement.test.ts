@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { AS_IT_IS, arranged, moved, toggled } from "./arrangement";
+import { AS_IT_IS, arranged, moved, offsets, pinned, pinnedOf, toggled } from "./arrangement";
 import type { Column } from "./table";
 
 const column = (id: string, group: Column["group"]): Column => ({ id, group, title: id, unit: "", name: id, numeric: true, value: () => 1 });
@@ -23,5 +23,26 @@ describe("columns", () => {
     const hidden = toggled(AS_IT_IS, "a");
     expect(hidden.hidden).toEqual(["a"]);
     expect(toggled(hidden, "a")).toEqual(AS_IT_IS);
+  });
+  it("that stay at the left are moved among themselves, and their old places stay", () => {
+    const two = pinned(pinned(AS_IT_IS, "c"), "seed");
+    expect(ids(pinnedOf(columns, two))).toBe("cseed");
+    expect(ids(pinnedOf(columns, moved(two, columns, "seed", -9)))).toBe("seedc");
+    expect(moved(two, columns, "seed", -9).order).toEqual([]);
+    expect(ids(arranged(columns, moved(two, columns, "b", -1)))).toBe("runseedcba"); // c is elsewhere, and does not count as a step
+    expect(pinned(pinned(two, "c"), "seed")).toEqual(AS_IT_IS);
+  });
+  it("are shown when they are pinned, and stay pinned while they are hidden", () => {
+    const shown = pinned(toggled(AS_IT_IS, "a"), "a");
+    expect(shown).toEqual({ hidden: [], order: [], pinned: ["a"] });
+    expect(toggled(toggled(shown, "a"), "a")).toEqual(shown);
+  });
+  it("of which nothing was pinned, kept by an older page, and those that are gone, are no fault", () => {
+    expect(pinnedOf(columns, { hidden: [], order: [] })).toEqual([]);
+    expect(pinnedOf(columns, pinned(AS_IT_IS, "gone"))).toEqual([]);
+  });
+  it("begin where those before them end, as long as a third of the table is left", () => {
+    expect(offsets([40, 70.5, 100], 900)).toEqual([0, 40, 110.5]);
+    expect(offsets([40, 70, 300, 300], 900)).toEqual([0, 40, 110, undefined]);
   });
 });

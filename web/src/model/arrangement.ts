@@ -1,4 +1,4 @@
-/** How somebody has arranged the columns of a table: which are hidden, and in which order the others stand. */
+/** How somebody has arranged the columns of a table: which are hidden, which stay at the left, and in which order the others stand. */
 
 import type { Column } from "./table";
 
@@ -6,9 +6,22 @@ export interface Arrangement {
   hidden: readonly string[];
   /** Ids in their order; columns that are not named come behind, as they are. */
   order: readonly string[];
+  /** Those that stay at the left when the table is scrolled sideways, in their order; what was kept before there were any has none. */
+  pinned?: readonly string[];
 }
 
-export const AS_IT_IS: Arrangement = { hidden: [], order: [] };
+export const AS_IT_IS: Arrangement = { hidden: [], order: [], pinned: [] };
+
+/** The columns that stay at the left, in their order; those that the table has not (any more) are left out. */
+export function pinnedOf(columns: readonly Column[], { pinned = [] }: Arrangement): Column[] {
+  return pinned.flatMap((id) => columns.find((column) => column.id === id) ?? []);
+}
+
+/** Keeps a column at the left, behind those that are there, or lets it go to its place again; one that was hidden is shown. */
+export function pinned({ hidden, order, pinned: before = [] }: Arrangement, id: string): Arrangement {
+  if (before.includes(id)) return { hidden, order, pinned: before.filter((other) => other !== id) };
+  return { order, hidden: hidden.filter((other) => other !== id), pinned: [...before, id] };
+}
 
 /** The columns in the order that was chosen; groups stay together. */
 export function arranged(columns: readonly Column[], { order }: Arrangement): Column[] {
@@ -19,17 +32,35 @@ export function arranged(columns: readonly Column[], { order }: Arrangement): Co
 }
 
 /** Hides a column, or shows it again. */
-export function toggled({ hidden, order }: Arrangement, id: string): Arrangement {
-  return { order, hidden: hidden.includes(id) ? hidden.filter((other) => other !== id) : [...hidden, id] };
+export function toggled(arrangement: Arrangement, id: string): Arrangement {
+  const { hidden } = arrangement;
+  return { ...arrangement, hidden: hidden.includes(id) ? hidden.filter((other) => other !== id) : [...hidden, id] };
 }
 
-/** Moves a column by so many places within its group; beyond the ends it stays. */
+/** Moves a column by so many places within its group, or within those at the left; beyond the ends it stays. */
 export function moved(arrangement: Arrangement, columns: readonly Column[], id: string, by: number): Arrangement {
+  const fixed = pinnedOf(columns, arrangement).map((column) => column.id);
+  if (fixed.includes(id)) return { ...arrangement, pinned: shifted(fixed, id, by) };
   const now = arranged(columns, arrangement);
   const group = now.find((column) => column.id === id)?.group;
-  const own = now.filter((column) => column.group === group).map((column) => column.id);
-  const from = own.indexOf(id);
-  const to = Math.min(own.length - 1, Math.max(0, from + by));
-  own.splice(to, 0, ...own.splice(from, 1));
-  return { ...arrangement, order: now.flatMap((column) => (column.group === group ? [] : column.id)).concat(own) };
+  const own = now.filter((column) => column.group === group && !fixed.includes(column.id)).map((column) => column.id);
+  return { ...arrangement, order: now.flatMap((column) => (own.includes(column.id) ? [] : column.id)).concat(shifted(own, id, by)) };
+}
+
+function shifted(ids: readonly string[], id: string, by: number): string[] {
+  const rest = ids.filter((other) => other !== id);
+  return rest.toSpliced(Math.min(rest.length, Math.max(0, ids.indexOf(id) + by)), 0, id);
+}
+
+/**
+ * Where columns that stay at the left begin, each behind those before it, by their widths [px]; those that would leave less than
+ * a third of the table to the others go along with them.
+ */
+export function offsets(widths: readonly number[], room: number): (number | undefined)[] {
+  let left = 0;
+  return widths.map((width) => {
+    const begin = left;
+    left += width;
+    return left > (2 / 3) * room ? undefined : begin;
+  });
 }

@@ -16,6 +16,7 @@ interface Layer {
 export const LAYERS: readonly Layer[] = [
   { name: "names", label: "Names", about: "of traffic only when it is near", needsRun: false },
   { name: "gaps", label: "Gaps to the car ahead", about: "bumper to bumper", needsRun: true },
+  { name: "ghosts", label: "Lines to ghosts", about: "from each car to the same one of the other runs, with the distance", needsRun: true },
   { name: "sensors", label: "Sensors and what they see", about: "their fields, and a diamond for each target", needsRun: true },
   { name: "messages", label: "Messages", about: "an arc from sender to receiver; lost ones are dashed and crossed out", needsRun: true },
   { name: "paths", label: "Planned ways", about: "where everybody will be within 4 s", needsRun: true },

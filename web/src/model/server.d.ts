@@ -560,6 +560,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/aggregates": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Aggregates
+         * @description A channel of runs in a few numbers: least, greatest and mean value, percentiles, the value at an event.
+         */
+        get: operations["aggregates_api_aggregates_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/live": {
         parameters: {
             query?: never;
@@ -1585,6 +1605,64 @@ export interface paths {
 export type webhooks = Record<string, never>;
 export interface components {
     schemas: {
+        /**
+         * Aggregate
+         * @description One number about the samples of a channel.
+         */
+        Aggregate: {
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "min" | "max" | "mean" | "p5" | "p95" | "at_event";
+            /**
+             * Value
+             * @description in the unit of the channel; null where no sample is a number, or without an event
+             */
+            value: number | null;
+            /**
+             * Time
+             * @description [s] when it was, of what was at a time
+             */
+            time: number | null;
+            /**
+             * Meaning
+             * @description how it is made, in words
+             */
+            meaning: string;
+        };
+        /**
+         * Aggregated
+         * @description A channel of a run in a few numbers.
+         */
+        Aggregated: {
+            /** Run */
+            run: number;
+            /** Unit */
+            unit: string;
+            /**
+             * Begin
+             * @description [s] the first sample in it
+             */
+            begin: number;
+            /**
+             * End
+             * @description [s] the last sample in it
+             */
+            end: number;
+            /**
+             * Samples
+             * @description how many of them are numbers
+             */
+            samples: number;
+            /**
+             * Moment
+             * @description [s] when the event was
+             */
+            moment: number | null;
+            /** Aggregates */
+            aggregates: components["schemas"]["Aggregate"][];
+        };
         /**
          * AllottedStage
          * @description The stage that a page has to itself while its scene is connected.
@@ -2708,6 +2786,44 @@ export interface components {
             lifts: number[];
         };
         /**
+         * LayerLink
+         * @description A line from a car to the same one of another run, a ghost.
+         */
+        LayerLink: {
+            /** Car */
+            car: number;
+            /**
+             * Run
+             * @description the other run
+             */
+            run: number;
+            /**
+             * Color
+             * @description of its ghosts, #rrggbb
+             */
+            color: string;
+            /**
+             * X
+             * @description [m] of the ghost
+             */
+            x: number;
+            /**
+             * Y
+             * @description [m]
+             */
+            y: number;
+            /**
+             * Z
+             * @description [m] of the road as it is drawn
+             */
+            z: number;
+            /**
+             * Distance
+             * @description [m] from one to the other, seen from above
+             */
+            distance: number;
+        };
+        /**
          * LayerMessage
          * @description The newest message from one to another, which was sent a moment ago.
          */
@@ -2745,6 +2861,12 @@ export interface components {
              * @description where their ways lead
              */
             paths: components["schemas"]["LayerLine"][];
+            /**
+             * Links
+             * @description to the ghosts of a run that is played back
+             * @default []
+             */
+            links: components["schemas"]["LayerLink"][];
         };
         /**
          * LayersNews
@@ -2772,6 +2894,12 @@ export interface components {
              * @description where their ways lead
              */
             paths: components["schemas"]["LayerLine"][];
+            /**
+             * Links
+             * @description to the ghosts of a run that is played back
+             * @default []
+             */
+            links: components["schemas"]["LayerLink"][];
             /**
              * @description discriminator enum property added by openapi-typescript
              * @enum {string}
@@ -8106,8 +8234,8 @@ export interface operations {
     run_recording_api_runs__run__recording_get: {
         parameters: {
             query?: {
-                /** @description parquet: as it is kept, with units; csv: a table */
-                format?: "parquet" | "csv";
+                /** @description parquet: as it is kept, with units; csv: a table; mcap: for Foxglove, with events and messages */
+                format?: "parquet" | "csv" | "mcap";
                 /** @description of csv: names, separated by commas; all without it */
                 channels?: string;
             };
@@ -8127,6 +8255,7 @@ export interface operations {
                 content: {
                     "application/vnd.apache.parquet": string;
                     "text/csv": string;
+                    "application/octet-stream": string;
                 };
             };
             /** @description The body is no JSON. */
@@ -9108,6 +9237,136 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["SideBySide"];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The server is open to a network, and the header `Authorization: Bearer TOKEN` is not its token. */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Another origin or name, or something that may be read only. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description There is no such thing. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The address has no such method. */
+            405: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is over, or not as the request expects it. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It has changed meanwhile. */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is too much. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Something in it is wrong. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description A mistake of the studio. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The database cannot be used now, or is damaged. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+        };
+    };
+    aggregates_api_aggregates_get: {
+        parameters: {
+            query: {
+                /** @description numbers of up to eight runs, with commas */
+                runs: string;
+                /** @description vehicle.quantity, recorded in all of them */
+                channel: string;
+                /** @description [s] from then on; from the beginning without it */
+                begin?: number | null;
+                /** @description [s] until then; to the end without it */
+                end?: number | null;
+                /** @description a kind of events: the value at the first of them */
+                event?: string;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Aggregated"][];
                 };
             };
             /** @description The body is no JSON. */

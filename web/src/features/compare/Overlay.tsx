@@ -18,6 +18,7 @@ import { formatDifference, words } from "../../model/units";
 import { useDark } from "../../ui/dark";
 import { QuantitySelect } from "../../ui/QuantitySelect";
 import { Empty, Failure, Loading } from "../../ui/State";
+import { Aggregates } from "../runs/Aggregates";
 import classes from "./Compare.module.css";
 import { styleOf } from "./line";
 
@@ -36,7 +37,15 @@ export function Overlay({ found }: { found: SideBySide }) {
         None of the runs recorded anything.
       </Empty>
     );
-  return <Charts found={found} details={details} />;
+  return (
+    <>
+      <Charts found={found} details={details} />
+      <section className={classes.card} aria-label="A channel in numbers">
+        <h2>A channel in numbers</h2>
+        <Aggregates runs={details} />
+      </section>
+    </>
+  );
 }
 
 function Charts({ found, details }: { found: SideBySide; details: readonly RunDetail[] }) {

@@ -1,9 +1,9 @@
-/** Which columns the table of runs has, and in which order; the browser remembers it. */
+/** Which columns the table of runs has, which stay at the left, and in which order; the browser remembers it. */
 
 import { ActionIcon, Button, Checkbox, Group, Popover, ScrollArea, Text, TextInput } from "@mantine/core";
 import { useLocalStorage } from "@mantine/hooks";
 import { useState } from "react";
-import { type Arrangement, arranged, AS_IT_IS, moved, toggled } from "../../model/arrangement";
+import { type Arrangement, arranged, AS_IT_IS, moved, pinned, pinnedOf, toggled } from "../../model/arrangement";
 import type { Column } from "../../model/table";
 import { withUnit } from "../../model/units";
 import { Icon } from "../../ui/Icon";
@@ -26,11 +26,13 @@ interface Props {
 export function ColumnMenu({ columns, arrangement, onArrange }: Props) {
   const [query, setQuery] = useState("");
   const hidden = arrangement.hidden.filter((id) => columns.some((column) => column.id === id)).length;
-  const shown = arranged(columns, arrangement).filter(
+  const staying = pinnedOf(columns, arrangement);
+  const rest = arranged(columns, arrangement).filter((column) => !staying.includes(column));
+  const shown = [...staying, ...rest].filter(
     ({ id, title, name }) => id !== "run" && `${title} ${name}`.toLowerCase().includes(query.toLowerCase()),
   );
   return (
-    <Popover width={340} position="bottom-end" withArrow shadow="md" trapFocus>
+    <Popover width={370} position="bottom-end" withArrow shadow="md" trapFocus>
       <Popover.Target>
         <Button size="xs" variant="default" leftSection={<Icon name="columns" size={14} />}>
           Columns{hidden ? ` (${hidden} hidden)` : ""}
@@ -68,6 +70,7 @@ export function ColumnMenu({ columns, arrangement, onArrange }: Props) {
 function Entry({ column, columns, arrangement, onArrange }: Props & { column: Column }) {
   const move = (by: number) => onArrange(moved(arrangement, columns, column.id, by));
   const name = withUnit(column.title, column.unit);
+  const isPinned = arrangement.pinned?.includes(column.id) === true;
   return (
     <Group gap={4} wrap="nowrap" title={column.name}>
       <Checkbox
@@ -77,6 +80,16 @@ function Entry({ column, columns, arrangement, onArrange }: Props & { column: Co
         checked={!arrangement.hidden.includes(column.id)}
         onChange={() => onArrange(toggled(arrangement, column.id))}
       />
+      <ActionIcon
+        variant={isPinned ? "light" : "subtle"}
+        size={24}
+        aria-label={`Pin ${name}`}
+        aria-pressed={isPinned}
+        title={isPinned ? "Let it go to its place (p on its head)" : "Keep it at the left (p on its head)"}
+        onClick={() => onArrange(pinned(arrangement, column.id))}
+      >
+        <Icon name="pin" size={12} />
+      </ActionIcon>
       <ActionIcon variant="subtle" size={24} aria-label={`${name} first`} title="To the beginning" onClick={() => move(-columns.length)}>
         <Icon name="fit" size={12} />
       </ActionIcon>

@@ -28,6 +28,7 @@ import { Empty, Failure, Loading } from "../../ui/State";
 import { StatusBadge } from "../../ui/StatusBadge";
 import { VerdictBadge } from "../../ui/VerdictBadge";
 import classes from "./Runs.module.css";
+import { Aggregates } from "./Aggregates";
 import { ExportMenu } from "./ExportMenu";
 import { VerdictCard } from "./VerdictCard";
 
@@ -77,6 +78,11 @@ function Detail({ run }: { run: RunDetail }) {
       </div>
       <div className={classes.column}>
         <Charts run={run} />
+        {isLive(run.status) || run.channels.length === 0 ? null : (
+          <Card title="A channel in numbers">
+            <Aggregates runs={[run]} />
+          </Card>
+        )}
         <Explanations run={run} onSeek={seek} />
         <Card title="Events">
           {run.events.length ? (
@@ -145,6 +151,7 @@ const reportsOf = (run: number) => [
 const exportsOf = (run: number) => [
   { label: "All channels, Parquet", href: `/api/runs/${run}/recording?format=parquet` },
   { label: "All channels, CSV", href: `/api/runs/${run}/recording?format=csv` },
+  { label: "Everything on one clock, MCAP (Foxglove)", href: `/api/runs/${run}/recording?format=mcap` },
   { label: "A notebook that reads it, Jupyter", href: `/api/runs/${run}/notebook` },
   { label: "Trajectories, CSV", href: `/api/runs/${run}/trajectories?format=csv` },
   { label: "Trajectories, SUMO FCD", href: `/api/runs/${run}/trajectories?format=fcd` },

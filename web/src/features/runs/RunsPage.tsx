@@ -5,7 +5,7 @@ import { useQuery } from "@tanstack/react-query";
 import { useNavigate } from "@tanstack/react-router";
 import { useMemo, useState } from "react";
 import { olderRuns, PAGE, runs } from "../../api/queries";
-import { arranged } from "../../model/arrangement";
+import { arranged, pinned as withPin, pinnedOf } from "../../model/arrangement";
 import { MOST } from "../../model/beside";
 import { pinsOf } from "../../model/pin";
 import { countBy, countByStatus, type ListedRun } from "../../model/run";
@@ -124,6 +124,7 @@ function Listed({ runs: all, isPart, view, onView }: ListedProps) {
   const every = useColumns(all);
   const { arrangement, arrange } = useArrangement();
   const columns = useMemo(() => arranged(every, arrangement), [every, arrangement]);
+  const fixed = useMemo(() => pinnedOf(columns, arrangement), [columns, arrangement]);
   const filter = useMemo(() => filterOf(q, columns, textOf), [q, columns]);
   const hits = useMemo(() => {
     const passes = filter.test ?? (() => true); // what cannot be read hides nothing
@@ -233,6 +234,8 @@ function Listed({ runs: all, isPart, view, onView }: ListedProps) {
           all={all}
           columns={columns}
           hidden={arrangement.hidden}
+          fixed={fixed}
+          onFix={(column) => arrange(withPin(arrangement, column))}
           base={all.find(({ run }) => run === view.base)}
           pinned={pinned}
           hovered={hovered}

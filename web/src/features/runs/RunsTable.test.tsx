@@ -7,7 +7,7 @@ import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { kinds } from "../../api/queries";
 import { finished } from "../../test/scenario";
 import { press, Sight } from "../../test/sight";
-import { RUN_COLUMNS } from "../../model/table";
+import { type Column, RUN_COLUMNS } from "../../model/table";
 import { RunsTable } from "./RunsTable";
 
 const ROW = 33; // [px]
@@ -15,6 +15,8 @@ const RUNS = Array.from({ length: 200 }, (_, number) => finished({ run: number, 
 
 const picked: [number, boolean][] = [];
 let by: string | undefined;
+let fixed: readonly Column[];
+const kept: string[] = [];
 const judged: [number, string][] = [];
 let host: HTMLElement;
 let root: Root;
@@ -27,6 +29,8 @@ function Table() {
       all={RUNS}
       columns={RUN_COLUMNS}
       hidden={[]}
+      fixed={fixed}
+      onFix={(column) => kept.push(column)}
       base={undefined}
       pinned={new Set()}
       onPin={() => {}}
@@ -44,6 +48,7 @@ function Table() {
 
 beforeEach(async () => {
   by = undefined;
+  fixed = [];
   await shown();
 });
 
@@ -134,5 +139,31 @@ describe("groups in the table of runs", () => {
     expect(focused()).toBe("1");
     press("Home", "Enter");
     expect(heads()).toEqual(["Scenario even"]);
+  });
+});
+
+describe("columns that stay at the left", () => {
+  const heads = (level: number) => [...host.querySelectorAll<HTMLElement>(`thead tr:nth-child(${level}) th`)];
+
+  it("stand behind the run's number under a head of their own, each cell at the same place as its head", async () => {
+    act(() => root.unmount());
+    host.remove();
+    fixed = RUN_COLUMNS.filter(({ id }) => id === "seed");
+    await shown();
+    expect(heads(1).map(({ textContent }) => textContent)).toEqual(["Selection", "Pinned", "Run"]);
+    const [, run, seed, next] = heads(2);
+    expect([run, seed, next].map((head) => head?.dataset.column)).toEqual(["run", "seed", "scenario"]);
+    const cells = [...(host.querySelector("tr[data-run]")?.children ?? [])] as HTMLElement[];
+    for (const [place, head] of heads(2).entries()) expect(cells[place]?.style.left).toBe(head.style.left);
+    expect(seed?.style.left).toBe("var(--left-1, auto)");
+    expect(next?.dataset.sticky).toBeUndefined();
+  });
+
+  it("are chosen with p on a head; the run's number always stays", () => {
+    heads(2)[2]?.querySelector("button")?.focus();
+    press("p");
+    heads(2)[1]?.querySelector("button")?.focus();
+    press("p");
+    expect(kept).toEqual(["scenario"]);
   });
 });

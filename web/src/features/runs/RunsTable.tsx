@@ -11,8 +11,9 @@ import {
   useTable,
 } from "@tanstack/react-table";
 import { useVirtualizer } from "@tanstack/react-virtual";
-import { type KeyboardEvent, useEffect, useMemo, useRef, useState } from "react";
+import { type KeyboardEvent, type RefObject, useEffect, useLayoutEffect, useMemo, useRef, useState } from "react";
 import { useGlossary } from "../../api/glossary";
+import { offsets } from "../../model/arrangement";
 import { type Entry, entriesOf, groupsOf, type RunGroup, said } from "../../model/grouping";
 import { onTop } from "../../model/pin";
 import type { Json, ListedRun } from "../../model/run";
@@ -33,7 +34,7 @@ const ROW_HEIGHT = 33;
 /** These say what a row is, so they stay even when all rows agree. */
 const ALWAYS = new Set(["run", "status", "verdict", "created"]);
 
-const GROUP_TITLES = { run: "Run", parameters: "Parameters that some run has set", metrics: "Metrics" };
+const GROUP_TITLES = { pinned: "Pinned", run: "Run", parameters: "Parameters that some run has set", metrics: "Metrics" };
 
 const features = tableFeatures({ rowSortingFeature, columnVisibilityFeature });
 
@@ -44,6 +45,9 @@ interface Props {
   columns: readonly Column[];
   /** Ids of columns that somebody does not want to see. */
   hidden: readonly string[];
+  /** Those that stay at the left, behind the run's number. */
+  fixed: readonly Column[];
+  onFix: (column: string) => void;
   /** The run that the others are tinted against; it stands first. */
   base: ListedRun | undefined;
   /** Those that stay on top beside it. */
@@ -62,18 +66,18 @@ interface Props {
   onJudge: (run: ListedRun, word: Word) => void;
 }
 
-export function RunsTable({ runs, all, columns, hidden, base, pinned, onPin, hovered, view, selected, onView, onToggle, onPick, onJudge, onBase }: Props) {
+export function RunsTable({ runs, all, columns, hidden, fixed, onFix, base, pinned, onPin, hovered, view, selected, onView, onToggle, onPick, onJudge, onBase }: Props) {
   const sorting = readSort(view.sort);
   const data = useMemo(() => ordered(runs, columns, readSort(view.sort)[0], base, pinned), [runs, columns, view.sort, base, pinned]);
   const { entries, fold, folded } = useEntries(data, columns, view);
   const table = useTable({
     features,
     data,
-    columns: useMemo(() => grouped(columns), [columns]),
+    columns: useMemo(() => grouped(columns, fixed), [columns, fixed]),
     getRowId: (run: ListedRun) => String(run.run),
     manualSorting: true,
     enableMultiSort: false,
-    state: { sorting, columnVisibility: visibility(columns, all, view.varying !== false, hidden) },
+    state: { sorting, columnVisibility: visibility(columns, all, view.varying !== false, hidden, fixed) },
     onSortingChange: (next) =>
       onView({ ...view, sort: writeSort(typeof next === "function" ? next(sorting) : next) }),
   });
@@ -91,6 +95,8 @@ export function RunsTable({ runs, all, columns, hidden, base, pinned, onPin, hov
   const width = table.getVisibleLeafColumns().length + 1;
   const keys = useMemo(() => entries.map(({ run, group }) => (run ? String(run.run) : groupKey(group))), [entries]);
   const shown = table.getVisibleLeafColumns().map(({ id }) => byId(columns, id));
+  const lefts = useMemo(() => leftsOf(shown, fixed), [shown.map(({ id }) => id).join(), fixed]);
+  useOffsets(scroller, lefts);
   const { enter, step } = useRowFocus(scroller, keys, (index) => virtual.scrollToIndex(index));
   useRowKeys(() => enter(virtual.range?.startIndex ?? 0), items.length > 0);
   const withFocused = (act: (run: ListedRun) => void) => () => {
@@ -104,7 +110,11 @@ export function RunsTable({ runs, all, columns, hidden, base, pinned, onPin, hov
     d: judge("discarded"),
     D: judge("discarded"),
     b: withFocused(({ run }) => onBase(run)),
-    p: withFocused(({ run }) => onPin(run)),
+    p: () => {
+      const column = focusedColumn();
+      if (column && column !== "run") onFix(column);
+      else withFocused(({ run }) => onPin(run))();
+    },
   });
 
   return (
@@ -124,6 +134,8 @@ export function RunsTable({ runs, all, columns, hidden, base, pinned, onPin, hov
                     scope="colgroup"
                     className={classes.group}
                     data-group={header.column.id}
+                    data-sticky={header.column.id === "pinned" || undefined}
+                    style={header.column.id === "pinned" ? { left: "var(--left-group, auto)" } : undefined}
                   >
                     <span className={classes.groupName}>{String(header.column.columnDef.header ?? "")}</span>
                   </th>
@@ -131,6 +143,8 @@ export function RunsTable({ runs, all, columns, hidden, base, pinned, onPin, hov
                   <SortHeader
                     key={header.id}
                     column={byId(columns, header.column.id)}
+                    left={lefts[header.column.id]}
+                    isFixed={fixed.some(({ id }) => id === header.column.id)}
                     sorted={header.column.getIsSorted()}
                     onSort={() => header.column.toggleSorting(undefined)}
                   />
@@ -150,6 +164,7 @@ export function RunsTable({ runs, all, columns, hidden, base, pinned, onPin, hov
                   group={group}
                   index={index}
                   columns={shown}
+                  lefts={lefts}
                   isOpen={!folded.has(group.key)}
                   selected={selected}
                   onFold={() => fold(group.key)}
@@ -163,6 +178,7 @@ export function RunsTable({ runs, all, columns, hidden, base, pinned, onPin, hov
                 run={row.original}
                 index={index}
                 columns={row.getVisibleCells().map((cell) => byId(columns, cell.column.id))}
+                lefts={lefts}
                 base={base}
                 isPinned={pinned.has(row.original.run)}
                 hovered={row.original.run === hovered}
@@ -207,6 +223,46 @@ function useRowKeys(first: () => void, filled: boolean) {
 /** The run of the row that has the focus. */
 const focusedRun = () => document.activeElement?.closest<HTMLElement>("tr[data-run]")?.dataset.run;
 
+/** The column whose head has the focus. */
+const focusedColumn = () => document.activeElement?.closest<HTMLElement>("th[data-column]")?.dataset.column;
+
+/** Where columns begin that stay at the left, as a style; the others have none. */
+type Lefts = Record<string, string>;
+
+/** The run's number, and behind it what was pinned. */
+function leftsOf(shown: readonly Column[], fixed: readonly Column[]): Lefts {
+  const staying = shown.filter(({ id }) => id === "run" || fixed.some((column) => column.id === id));
+  return Object.fromEntries(staying.map(({ id }, place) => [id, `var(--left-${place}, auto)`]));
+}
+
+/**
+ * Where the columns that stay begin, measured: what stands in the rows that are drawn makes them wider or narrower. It goes to
+ * the table as properties of its style, so no row is drawn again for it.
+ */
+function useOffsets(scroller: RefObject<HTMLDivElement | null>, lefts: Lefts) {
+  useLayoutEffect(() => {
+    const host = scroller.current;
+    if (!host) return;
+    const heads = [...host.querySelectorAll<HTMLElement>("thead tr + tr th")].slice(0, Object.keys(lefts).length + 1);
+    const measure = () => {
+      const widths = heads.map((head) => head.getBoundingClientRect().width);
+      const begins = offsets(widths, host.clientWidth);
+      begins.slice(1).forEach((left, place) => set(host, `--left-${place}`, left));
+      set(host, "--left-group", begins.includes(undefined) ? undefined : begins[1]);
+      set(host, "--staying", Math.max(0, ...begins.map((left, place) => (left === undefined ? 0 : left + (widths[place] ?? 0)))));
+    };
+    measure();
+    const observer = new ResizeObserver(measure);
+    for (const each of [host, ...heads]) observer.observe(each);
+    return () => observer.disconnect();
+  }, [lefts]);
+}
+
+function set({ style }: HTMLElement, name: string, px: number | undefined) {
+  if (px === undefined) style.removeProperty(name);
+  else style.setProperty(name, `${px}px`);
+}
+
 const byId = (columns: readonly Column[], id: string): Column =>
   columns.find((column) => column.id === id) as Column;
 
@@ -219,12 +275,12 @@ function Gap({ height, width }: { height: number; width: number }) {
   ) : null;
 }
 
-function grouped(columns: readonly Column[]): ColumnDef<typeof features, ListedRun>[] {
-  const groups = (["run", "parameters", "metrics"] as const).map((group) => ({
+function grouped(columns: readonly Column[], fixed: readonly Column[]): ColumnDef<typeof features, ListedRun>[] {
+  const staying = fixed.length > 0 ? [...columns.filter(({ id }) => id === "run"), ...fixed] : [];
+  const groups = (["pinned", "run", "parameters", "metrics"] as const).map((group) => ({
     id: group,
     header: GROUP_TITLES[group],
-    columns: columns
-      .filter((column) => column.group === group)
+    columns: (group === "pinned" ? staying : columns.filter((column) => column.group === group && !staying.includes(column)))
       .map(({ id, title, value }) => ({
         id,
         header: title,
@@ -239,11 +295,13 @@ function visibility(
   runs: readonly ListedRun[],
   varyingOnly: boolean,
   hidden: readonly string[],
+  fixed: readonly Column[],
 ): Record<string, boolean> {
+  const isAsked = ({ id }: Column) => ALWAYS.has(id) || fixed.some((each) => each.id === id);
   return Object.fromEntries(
     columns.map((column) => [
       column.id,
-      !hidden.includes(column.id) && (ALWAYS.has(column.id) || !varyingOnly || runs.length < 2 || varies(column, runs)),
+      !hidden.includes(column.id) && (isAsked(column) || !varyingOnly || runs.length < 2 || varies(column, runs)),
     ]),
   );
 }
@@ -271,19 +329,23 @@ function ordered(
 
 interface HeaderProps {
   column: Column;
+  left: string | undefined;
+  isFixed: boolean;
   sorted: false | "asc" | "desc";
   onSort: () => void;
 }
 
 const ARIA_SORT = { asc: "ascending", desc: "descending" } as const;
 
-function SortHeader({ column, sorted: direction, onSort }: HeaderProps) {
+function SortHeader({ column, left, isFixed, sorted: direction, onSort }: HeaderProps) {
   return (
     <th
       scope="col"
-      title={column.name}
+      title={column.id === "run" ? column.name : `${column.name}\n${isFixed ? "p: let it go to its place" : "p: keep it at the left"}`}
+      data-column={column.id}
       data-numeric={column.numeric || undefined}
-      data-sticky={column.id === "run" || undefined}
+      data-sticky={left !== undefined || undefined}
+      style={{ left }}
       aria-sort={direction ? ARIA_SORT[direction] : "none"}
     >
       <button type="button" className={classes.sort} onClick={onSort}>
@@ -321,6 +383,7 @@ interface GroupProps {
   group: RunGroup;
   index: number;
   columns: readonly Column[];
+  lefts: Lefts;
   isOpen: boolean;
   selected: ReadonlySet<number>;
   onFold: () => void;
@@ -328,7 +391,7 @@ interface GroupProps {
 }
 
 /** The head of a group: how many there are, and how what is shown of them spreads. */
-function GroupRow({ group: { title, runs }, index, columns, isOpen, selected, onFold, onPick }: GroupProps) {
+function GroupRow({ group: { title, runs }, index, columns, lefts, isOpen, selected, onFold, onPick }: GroupProps) {
   const onKey = (event: KeyboardEvent) => {
     if (event.target !== event.currentTarget) return;
     const isWay = (event.key === "ArrowLeft" && isOpen) || (event.key === "ArrowRight" && !isOpen);
@@ -342,24 +405,24 @@ function GroupRow({ group: { title, runs }, index, columns, isOpen, selected, on
       </td>
       {columns.map((column) =>
         column.id === "run" ? (
-          <td key={column.id} data-sticky>
+          <td key={column.id} data-sticky style={{ left: lefts[column.id] }}>
             <button type="button" tabIndex={-1} className={classes.fold} aria-expanded={isOpen} onClick={onFold}>
               <Icon name={isOpen ? "down" : "right"} size={12} />
               {title} <small>{runs.length === 1 ? "1 run" : `${runs.length} runs`}</small>
             </button>
           </td>
         ) : (
-          <GroupCell key={column.id} column={column} runs={runs} />
+          <GroupCell key={column.id} column={column} left={lefts[column.id]} runs={runs} />
         ),
       )}
     </tr>
   );
 }
 
-function GroupCell({ column, runs }: { column: Column; runs: readonly ListedRun[] }) {
+function GroupCell({ column, left, runs }: { column: Column; left: string | undefined; runs: readonly ListedRun[] }) {
   const found = useMemo(() => (UNSAID.has(column.id) ? undefined : said(runs, column)), [column, runs]);
   return (
-    <td data-numeric={column.numeric || undefined} title={found?.full}>
+    <td data-numeric={column.numeric || undefined} data-sticky={left !== undefined || undefined} style={{ left }} title={found?.full}>
       {found?.text}
     </td>
   );
@@ -372,6 +435,7 @@ interface RowProps {
   run: ListedRun;
   index: number;
   columns: readonly Column[];
+  lefts: Lefts;
   base: ListedRun | undefined;
   isPinned: boolean;
   hovered: boolean;
@@ -379,7 +443,7 @@ interface RowProps {
   onToggle: () => void;
 }
 
-function RunRow({ run, index, columns, base, isPinned, hovered, selected, onToggle }: RowProps) {
+function RunRow({ run, index, columns, lefts, base, isPinned, hovered, selected, onToggle }: RowProps) {
   const { alike } = useGlossary();
   const navigate = useNavigate();
   const open = (event?: { target: EventTarget }) => {
@@ -415,7 +479,8 @@ function RunRow({ run, index, columns, base, isPinned, hovered, selected, onTogg
         <td
           key={column.id}
           data-numeric={column.numeric || undefined}
-          data-sticky={column.id === "run" || undefined}
+          data-sticky={lefts[column.id] !== undefined || undefined}
+          style={{ left: lefts[column.id] }}
           data-stand={column.group === "metrics" ? standing(run, base, column.id.slice("metric:".length), alike) : undefined}
         >
           <Cell column={column} run={run} isBase={run.run === base?.run} isPinned={isPinned} />

@@ -3,10 +3,12 @@
 import { Group, MultiSelect, SegmentedControl, Text } from "@mantine/core";
 import { useMemo } from "react";
 import { type Axis, axesOf, axisOf, axisText, firstAxes, type Range } from "../../model/axes";
+import { AsTable } from "../../charts/Sheet";
 import { type Bound, filterOf, withRange } from "../../model/filter";
 import type { ListedRun } from "../../model/run";
+import { evenly, partOf } from "../../model/sampled";
 import { type Column, textOf } from "../../model/table";
-import { withUnit } from "../../model/units";
+import { formatValue, withUnit } from "../../model/units";
 import { Empty } from "../../ui/State";
 import { Parallel } from "./Parallel";
 import { Ranking } from "./Ranking";
@@ -96,6 +98,7 @@ export function Space({ runs, shown, columns, text, bounds, draw = "lines", axes
           Drag along an axis to filter; it stands in the filter above.
           {draw === "points" ? "" : " Drag a title, or use the arrow keys on it, to move its axis; F flips it, L makes it logarithmic."}
         </Text>
+        {draw === "ranks" ? null : <AsTable sheet={() => sheetOf(drawn)} />}
       </Group>
       {draw === "ranks" ? (
         <Ranking all={all} columns={columns} runs={runs} shown={shown} />
@@ -106,3 +109,16 @@ export function Space({ runs, shown, columns, text, bounds, draw = "lines", axes
 
 /** What an expression keeps runs between. */
 const boundsOf = (text: string, columns: readonly Column[]): readonly Bound[] => filterOf(text, columns, textOf).bounds ?? [];
+
+/** The runs that the filter lets through, with their values on the axes that are drawn. */
+function sheetOf({ axes, runs, shown }: Drawn) {
+  const through = runs.filter(({ run }) => shown.has(run));
+  const some = evenly(through);
+  const told = (value: ReturnType<Column["value"]>) => (value === null || value === undefined || typeof value === "number" ? value : formatValue(value));
+  return {
+    title: "Runs over their axes",
+    note: partOf(some.length, through.length, "runs"),
+    heads: ["Run", ...axes.map(({ column }) => withUnit(column.title, column.unit))],
+    rows: some.map((run) => [`#${run.run}`, ...axes.map(({ column }) => told(column.value(run)))]),
+  };
+}

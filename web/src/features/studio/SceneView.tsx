@@ -132,7 +132,7 @@ export const SceneView = memo(function SceneView({ vehicles, attribution, active
               <Icon name="link" size={14} />
             </ActionIcon>
           </Tooltip>
-          <LayersMenu on={layers} onChange={chooseLayers} running={run} missing={missing} />
+          <LayersMenu on={layers} onChange={chooseLayers} running={run} missing={ghosts?.length ? missing : { ...missing, ghosts: "no other run is among these cars" }} />
         </div>
       ) : null}
       {waits || !there ? <Cover key={title} title={title} what={place.error?.message || waits || (ready ? "The browser loads the map" : "The 3D view comes up")} /> : null}

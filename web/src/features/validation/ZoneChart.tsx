@@ -4,6 +4,8 @@ import { useComputedColorScheme } from "@mantine/core";
 import { useEffect, useRef, useState } from "react";
 import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
+import { AsTable } from "../../charts/Sheet";
+import { evenly, partOf } from "../../model/sampled";
 import { formatNumber, withUnit, words } from "../../model/units";
 import { columnsOf, type Course, shareOf } from "../../model/validation";
 import classes from "./Validation.module.css";
@@ -92,8 +94,18 @@ export function ZoneChart({ course, interval }: { course: Course; interval: stri
             at {formatNumber(course.at[at] ?? 0)} {course.over_unit}
           </span>
         )}
+        <AsTable sheet={() => sheetOf(title, course)} />
       </figcaption>
       <div ref={host} />
     </figure>
   );
+}
+
+/** The same as a table: of bounds and means. */
+function sheetOf(title: string, course: Course) {
+  const columns = columnsOf(course);
+  const rows = evenly([...course.at.keys()]).map((place) => columns.map((column) => column[place]));
+  const names = ["upper bound", "lower bound", "recorded", "simulated", ...(course.averaged ? ["averaged input"] : [])];
+  const heads = [withUnit(words(course.over), course.over_unit), ...names.map((name) => withUnit(name, course.unit))];
+  return { title, note: partOf(rows.length, course.at.length, "places"), heads, rows };
 }

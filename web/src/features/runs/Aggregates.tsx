@@ -1,0 +1,97 @@
+/** A recorded channel of one run, or of several beside each other, in a few numbers: of all of it or of a stretch, and at an event. */
+
+import { Group, NativeSelect, Select, Table, Text, TextInput } from "@mantine/core";
+import { useQuery } from "@tanstack/react-query";
+import { useState } from "react";
+import { aggregates } from "../../api/queries";
+import { commonKinds } from "../../model/beside";
+import type { RunDetail } from "../../model/run";
+import { boundOf, common, NAMES } from "../../model/aggregate";
+import { formatNumber, formatTime, withUnit, words } from "../../model/units";
+import { Failure, Loading } from "../../ui/State";
+
+/** So many channels are listed at a time; the rest is found by typing. */
+const LISTED = 100;
+
+export function Aggregates({ runs }: { runs: readonly RunDetail[] }) {
+  const channels = common(runs);
+  const [chosen, setChosen] = useState<string>();
+  const [from, setFrom] = useState("");
+  const [to, setTo] = useState("");
+  const [event, setEvent] = useState("");
+  const channel = channels.find(({ name }) => name === chosen) ?? channels.find(({ name }) => name.endsWith(".speed")) ?? channels[0];
+  const [begin, end] = [boundOf(from), boundOf(to)];
+  const isAsked = channel !== undefined && begin !== null && end !== null;
+  const { data, error, refetch } = useQuery({
+    ...aggregates({ runs: runs.map(({ run }) => run), channel: channel?.name ?? "", begin: begin ?? undefined, end: end ?? undefined, event }),
+    enabled: isAsked,
+  });
+  if (!channel) return <Text size="sm">No channel was recorded in {runs.length > 1 ? "all of them" : "it"}.</Text>;
+  const wrong = (bound: number | null | undefined) => (bound === null ? "a number of seconds, such as 12.5" : undefined);
+  return (
+    <>
+      <Group gap="xs" align="flex-start">
+        <Select
+          size="xs"
+          w={240}
+          searchable
+          limit={LISTED}
+          allowDeselect={false}
+          label="Channel"
+          value={channel.name}
+          onChange={(name) => setChosen(name ?? undefined)}
+          data={channels.map(({ name, unit }) => ({ value: name, label: withUnit(name, unit) }))}
+        />
+        <TextInput size="xs" w={90} label="From [s]" placeholder="beginning" value={from} error={wrong(begin)} onChange={(at) => setFrom(at.currentTarget.value)} />
+        <TextInput size="xs" w={90} label="To [s]" placeholder="end" value={to} error={wrong(end)} onChange={(at) => setTo(at.currentTarget.value)} />
+        <NativeSelect
+          size="xs"
+          label="At the first"
+          value={event}
+          onChange={({ currentTarget: { value } }) => setEvent(value)}
+          data={[{ value: "", label: "no event" }, ...commonKinds(runs.map(({ events }) => events)).map((kind) => ({ value: kind, label: words(kind) }))]}
+        />
+      </Group>
+      {isAsked && error ? <Failure error={error} onRetry={() => void refetch()} /> : null}
+      {isAsked && !error && !data ? <Loading what="the numbers" /> : null}
+      {isAsked && !error && data ? <Found found={data} channel={channel} isAtEvent={event !== ""} /> : null}
+    </>
+  );
+}
+
+type Found = NonNullable<Awaited<ReturnType<NonNullable<ReturnType<typeof aggregates>["queryFn"]>>>>;
+
+function Found({ found, channel, isAtEvent }: { found: Found; channel: { name: string; unit: string }; isAtEvent: boolean }) {
+  const kinds = (found[0]?.aggregates ?? []).filter(({ kind }) => isAtEvent || kind !== "at_event");
+  return (
+    <Table verticalSpacing={3} horizontalSpacing={8} fz="sm" mt={6} aria-label={`Numbers of ${channel.name}`}>
+      <Table.Thead>
+        <Table.Tr>
+          <Table.Th>{withUnit(channel.name, channel.unit)}</Table.Th>
+          {found.map(({ run, begin, end, samples }) => (
+            <Table.Th key={run} ta="right" title={`${samples} samples from ${formatTime(begin)} to ${formatTime(end)} s`}>
+              #{run}
+            </Table.Th>
+          ))}
+          <Table.Th>is</Table.Th>
+        </Table.Tr>
+      </Table.Thead>
+      <Table.Tbody style={{ fontVariantNumeric: "tabular-nums" }}>
+        {kinds.map(({ kind, meaning }) => (
+          <Table.Tr key={kind}>
+            <Table.Th scope="row">{NAMES[kind]}</Table.Th>
+            {found.map(({ run, aggregates: own }) => {
+              const { value, time } = own.find((each) => each.kind === kind) ?? {};
+              return (
+                <Table.Td key={run} ta="right" title={typeof time === "number" ? `at ${formatTime(time)} s` : undefined}>
+                  {typeof value === "number" ? formatNumber(value) : "–"}
+                </Table.Td>
+              );
+            })}
+            <Table.Td c="dimmed">{meaning}</Table.Td>
+          </Table.Tr>
+        ))}
+      </Table.Tbody>
+    </Table>
+  );
+}
