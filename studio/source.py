@@ -82,12 +82,6 @@ def digest_of(*files: Path) -> str:
     return digest.hexdigest()[:16]
 
 
-def forget_texts() -> None:
-    """Files have changed: what was found in them is looked for again."""
-    imports.cache_clear()
-    digest_of.cache_clear()
-
-
 @cache
 def compiled_functions(path: Path) -> list[str]:
     """Names of the functions in a file that are compiled; not those of a text that is written to another file."""

@@ -6,8 +6,7 @@ onto the path of imports, so that a file named like a library stands in nobody's
 
 import hashlib
 import sys
-from collections.abc import Iterable
-from importlib import import_module, invalidate_caches
+from importlib import import_module
 from importlib.abc import Loader, MetaPathFinder
 from importlib.machinery import ModuleSpec
 from importlib.util import module_from_spec
@@ -23,17 +22,8 @@ def package_of(folder: Path) -> str:
 
 
 def load(path: Path) -> ModuleType:
-    """The module in a file; raises whatever it raises. No bytecode is kept: its date is in whole seconds, and somebody is writing."""
-    package = made(path.parent.resolve())
-    kept, sys.dont_write_bytecode = sys.dont_write_bytecode, True
-    try:
-        return import_module(f"{package}.{path.stem}")
-    finally:
-        sys.dont_write_bytecode = kept
-
-
-def made(folder: Path) -> str:
-    """The package of a folder, which is made when there is none yet."""
+    """The module in a file; raises whatever it raises."""
+    folder = path.parent.resolve()
     package = package_of(folder)
     if package not in sys.modules:
         spec = ModuleSpec(package, None, is_package=True)
@@ -41,23 +31,7 @@ def made(folder: Path) -> str:
         sys.modules[package] = module_from_spec(spec)
     if not any(isinstance(each, Beside) and each.folder == folder for each in sys.meta_path):
         sys.meta_path.append(Beside(folder))
-    return package
-
-
-def stand_in(folder: Path, kept: Path) -> None:
-    """From now on the files that lie in `kept` are loaded in place of those with the same names in a folder."""
-    sys.modules[made(folder)].__path__.insert(0, str(kept))
-
-
-def forget(folder: Path, names: Iterable[str]) -> dict[str, ModuleType]:
-    """Forgets modules of a folder, so that they are loaded anew; returned is what `sys.modules` had of them."""
-    package = made(folder)
-    modules = {id(sys.modules.get(f"{package}.{name}")) for name in names} - {id(None)}
-    found = {key: module for key, module in sys.modules.items() if id(module) in modules}
-    for key in found:
-        del sys.modules[key]
-    invalidate_caches()
-    return found
+    return import_module(f"{package}.{path.stem}")
 
 
 class Beside(MetaPathFinder, Loader):

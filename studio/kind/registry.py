@@ -9,7 +9,6 @@ asks for its name is told, and nobody else is hurt.
 import hashlib
 import json
 import pkgutil
-import sys
 import threading
 import traceback
 import zlib
@@ -28,7 +27,7 @@ from pydantic import BaseModel
 from studio.errors import KindError, Problem, UnknownError, nearest
 from studio.kind import folder
 from studio.kind.sort import SORTS, Sort, problems, where_of
-from studio.source import beside, forget_texts
+from studio.source import beside
 
 GROUP = "cooperative_adas_studio.kinds"
 USUAL_SORT = "application"  # of a file that does not say
@@ -127,10 +126,10 @@ def reserve(sort: str, names: Iterable[str], source: str) -> None:
     _reserved.update({(sort, name): source for name in names})
 
 
-def register(name: str, module: ModuleType, source: str = "", before: Kind | None = None) -> Kind:
-    """Adds a kind, or takes it in place of the version before; raises KindError when its name is taken or its contract is not kept."""
+def register(name: str, module: ModuleType, source: str = "") -> Kind:
+    """Adds a kind; raises KindError when its name is taken or the contract of its sort is not kept."""
     sort = sort_of(module)
-    if (taken := taken_by(sort.name, name)) and (before is None or (before.sort, before.name) != (sort.name, name)):
+    if taken := taken_by(sort.name, name):
         problem = Problem(f"{sort.name} {name!r}", "is registered twice", where_of(module), remedy=f"rename one; the other is {taken}")
         raise KindError(f"The name of the {sort.name} {name!r} is taken.", [problem])
     wrong = list(problems(module, sort))
@@ -225,36 +224,14 @@ def load_file(path: Path) -> Kind:
     load_all()
     with _loading:
         path = path.resolve()
-        if present := standing(path):
+        present = next((each for each in _registered.values() if each.file == path), None)
+        if present:
             return present
         try:
             module = folder.load(path)
         except (Exception, SystemExit) as error:
             raise KindError(f"The kind {path} does not load:\n{traceback.format_exc()}") from error
         return register(path.stem, module, str(path))
-
-
-def standing(path: Path) -> Kind | None:
-    """The kind of a file, as it was loaded."""
-    return next((each for each in _registered.values() if each.file == path), None)
-
-
-def renew(path: Path) -> Kind:
-    """Loads a file and its helpers again, in place of the version before, which stays when that fails. Raises KindError."""
-    load_all()
-    with _loading:
-        before = standing(path)
-        others = {each.file for each in _registered.values()} - {path}
-        names = [Path(name).stem for name in (before.texts if before else {path.name: ""}) if path.parent / name not in others]
-        gone = folder.forget(path.parent, names)
-        try:
-            forget_texts()
-            kind = register(path.stem, folder.load(path), str(path), before)
-        except (Exception, SystemExit) as error:
-            sys.modules.update(gone)
-            raise KindError(f"{path} does not load:\n{traceback.format_exc()}") from error
-        _broken.pop(str(path), None)
-        return kind
 
 
 def load_folder(place: Path) -> list[Kind]:

@@ -16,6 +16,7 @@ from typing import NamedTuple
 
 from studio.errors import KindError
 from studio.kind import registry
+from studio.kind.renewal import renew, standing, without_bytecode
 from studio.process import Child, Gone
 from studio.server.live import Lives
 from studio.server.manuscript import slips
@@ -58,7 +59,7 @@ class Editions:
 
     def look(self, path: Path) -> bool:
         """Looks at one file; whether another version is to be used, or one that was used is to be kept."""
-        kind = registry.standing(path)
+        kind = standing(path)
         texts = texts_now(path, kind)
         if kind and texts == kind.texts:
             return self.refusals.pop(path, None) is not None
@@ -78,19 +79,19 @@ class Editions:
         if what := tried(self.folders, path):
             return what
         try:
-            registry.renew(path)
+            renew(path)
         except KindError as error:
             return told(error)
         return ""
 
     def kept(self) -> tuple[tuple[Path, Path], ...]:
         """Folders with files that do not load, each with where the versions lie that did."""
-        return tuple({path.parent: self.laid_down(path) for path in self.refusals if registry.standing(path)}.items())
+        return tuple({path.parent: self.laid_down(path) for path in self.refusals if standing(path)}.items())
 
     def laid_down(self, path: Path) -> Path:
         """Where the version in use of a file lies, with what it imports beside it."""
         place = Path(self.place.name) / hashlib.sha256(str(path.parent).encode()).hexdigest()[:8]
-        kind = registry.standing(path)
+        kind = standing(path)
         for name, text in (kind.texts if kind else {}).items():
             (place / name).parent.mkdir(parents=True, exist_ok=True)
             (place / name).write_text(text, encoding="utf-8")
@@ -101,7 +102,7 @@ def applications(folders: tuple[Path, ...]) -> Iterator[Path]:
     """The files of the folders that are applications, or were when they were loaded."""
     for folder in folders:
         for path in sorted(folder.glob("[a-z]*.py")):
-            kind = registry.standing(path.resolve())
+            kind = standing(path.resolve())
             if kind.sort == registry.USUAL_SORT if kind else is_application(path):
                 yield path.resolve()
 
@@ -146,8 +147,9 @@ def tried(folders: tuple[Path, ...], path: Path) -> str:
 
 def rehearse(pipe, folders: tuple[Path, ...], path: Path) -> None:
     """In that process: loads the folders, and tells what is wrong with one file."""
-    for folder in folders:
-        registry.load_folder(folder)
+    with without_bytecode():
+        for folder in folders:
+            registry.load_folder(folder)
     failed = next((each for each in registry.broken() if each.file == str(path)), None)
     pipe.send(("tried", told(failed.error) if failed else ""))
 

@@ -27,8 +27,8 @@ from studio.errors import StoreError, StudioError
 from studio.execution.loop import Pace
 from studio.execution.message import lately
 from studio.execution.simulation import Case, Simulation, simulation
-from studio.kind.folder import stand_in
 from studio.kind.registry import load_folder
+from studio.kind.renewal import stand_in, without_bytecode
 from studio.road.ways.relief import relief_of
 from studio.scenario import file
 from studio.server import answer
@@ -241,8 +241,9 @@ def main(pipe: Connection, first: Path | None, kinds: tuple[Path, ...], kept: tu
     try:
         for folder, place in kept:
             stand_in(folder, place)
-        for folder in kinds:
-            load_folder(folder)
+        with without_bytecode():
+            for folder in kinds:
+                load_folder(folder)
         warm(first)
         pipe.send(("ready",))
         order, *values = pipe.recv()

@@ -5,9 +5,9 @@ import re
 from studio.errors import nearest
 
 # SI, what follows from it, what is counted, and what radio engineers use.
-SYMBOLS = frozenset(
-    "m s kg g N Nm J kJ W kW Wh kWh Hz kHz MHz GHz K A V Ah Pa kPa bar mol cd rad 1 % dB dBm dBi byte bytes bit B kB MB kbit Mbit rpm °C px".split()
-)
+PLAIN = "m s kg g N Nm J kJ W kW Wh kWh Hz kHz MHz GHz K °C A V Ah Pa kPa bar mol cd rad rpm"
+COUNTED = "1 % dB dBm dBi byte bytes bit B kB MB kbit Mbit px"
+SYMBOLS = frozenset(f"{PLAIN} {COUNTED}".split())
 SPELLED = (
     dict.fromkeys(("deg", "degree", "degrees", "°", "radian", "radians"), "rad")
     | dict.fromkeys(("h", "min", "ms", "us", "µs", "sec", "second", "seconds"), "s")

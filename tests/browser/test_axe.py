@@ -47,6 +47,8 @@ PLACES = {
     "/maps": "",
     "/validate": "",
     "/kinds": "",
+    "/source/acc": "source-state",
+    "/source/my_acc?start=acc": "source-state",
 }
 
 

@@ -6,15 +6,14 @@ import { useDebouncedValue } from "@mantine/hooks";
 import { useQuery, useQueryClient } from "@tanstack/react-query";
 import { Link, useBlocker } from "@tanstack/react-router";
 import { type RefObject, useCallback, useEffect, useMemo, useRef, useState } from "react";
-import { Refusal } from "../../api/client";
 import { canWrite, download } from "../../api/disk";
-import { applicationStarts, type Manuscript, manuscript, textProof, vocabulary } from "../../api/queries";
+import { applicationStarts, kinds, type Manuscript, manuscript, textProof, vocabulary } from "../../api/queries";
 import { beneath, keepText, keptText } from "../../model/source";
 import { goTo, mark, openEditor, replaceAll } from "../../ui/editor";
 import { Icon } from "../../ui/Icon";
 import { LeaveQuestion } from "../../ui/LeaveQuestion";
 import { pythonText } from "../../ui/python";
-import { Failure, Loading } from "../../ui/State";
+import { Empty, Failure, Loading } from "../../ui/State";
 import { useSaveKey } from "../../ui/shortcut";
 import { NewApplication } from "./NewApplication";
 import { useSaving } from "./saving";
@@ -27,16 +26,23 @@ interface Props {
 }
 
 export function SourcePage({ name, start }: Props) {
-  const known = useQuery({ ...manuscript("application", name), retry: false });
-  const isNew = known.error instanceof Refusal && known.error.status === 404;
+  const every = useQuery(kinds);
+  const isKnown = every.data?.kinds.some((each) => each.sort === "application" && each.name === name);
+  const isNew = isKnown === false;
+  useQuery({ ...kinds, refetchInterval: isNew ? 2000 : false });
+  const known = useQuery({ ...manuscript("application", name), enabled: isKnown === true });
   const starts = useQuery({ ...applicationStarts, enabled: isNew });
+  const failed = [every, known, starts].find((each) => each.error && !each.data);
+  if (failed?.error) return <Failure error={failed.error} onRetry={() => void failed.refetch()} />;
   if (known.data) return <Editing key={known.data.own ? "own" : "built in"} name={name} found={known.data} first={known.data.text} />;
-  if (known.error && !isNew) return <Failure error={known.error} onRetry={() => void known.refetch()} />;
-  if (starts.error) return <Failure error={starts.error} onRetry={() => void starts.refetch()} />;
   if (!isNew || !starts.data) return <Loading what="the source" />;
   const begun = starts.data.find((each) => each.name === start);
-  if (!begun && !keptText(name)) return <Failure error={known.error ?? new Error(`There is no application ${name}.`)} />;
-  return <Editing key="own" name={name} found={null} first={begun?.text ?? ""} />;
+  if (begun || keptText(name)) return <Editing key="own" name={name} found={null} first={begun?.text ?? ""} />;
+  return (
+    <Empty icon="text" title={`There is no application ${name}`}>
+      It may lie in a folder that the studio was not started with. Those that are there stand under Kinds, where a new one is begun too.
+    </Empty>
+  );
 }
 
 interface EditingProps {
