@@ -96,3 +96,11 @@ def stand_in(place: Path, kept: Path) -> None:
     spec = ModuleSpec(package, None, is_package=True)
     spec.submodule_search_locations = [str(kept), str(place)]
     sys.modules[package] = module_from_spec(spec)
+    for path in sorted(kept.glob("[a-z]*.py")):
+        if registry.is_kind(path) and not says_so(place / path.name):
+            registry.attempt(path.stem, str(place / path.name), lambda name=path.name: registry.load_file(place / name))
+
+
+def says_so(path: Path) -> bool:
+    """Whether a file is there and means to be a kind, so that it is loaded with its folder."""
+    return path.is_file() and registry.is_kind(path)
