@@ -47,8 +47,6 @@ PLACES = {
     "/maps": "",
     "/validate": "",
     "/kinds": "",
-    "/source/acc": "source-state",
-    "/source/my_acc?start=acc": "source-state",
 }
 
 
