@@ -72,8 +72,8 @@ def test_settings_follow_the_file(studio):
     file.write_text(first)
 
 
-def test_a_file_that_hangs_while_it_loads_holds_up_nobody(studio):
-    """It ends its own process; here it is one that ends itself."""
+def test_a_file_that_ends_its_process_while_it_loads_ends_nobody_else(studio):
+    """It is tried in a process of its own."""
     client, file = studio
     first = file.read_text()
     file.write_text("import os\nos._exit(3)\n" + first)
