@@ -194,6 +194,74 @@ class Manuscript(BaseModel):
     loaded: bool = Field(description="whether that is the text that the studio has loaded")
     missing: str = Field(description="why the file cannot be read, and the text is what was loaded; empty when it can")
     slips: list[Slip]
+    own: bool = Field(description="whether it is a user's own file, and not one of the studio's")
+    refused: str = Field(description="of an application: why what stands there is not used, and the version before is; empty when it is")
+
+
+class Draft(BaseModel):
+    """The text of an application, as somebody is writing it. It is parsed, and never run."""
+
+    text: str = Field(max_length=400_000)
+
+
+class Proved(BaseModel):
+    """Something wrong in a text, found by reading alone."""
+
+    line: int = Field(description="from 1 on")
+    column: int = Field(description="from 1 on")
+    what: str
+    remedy: str
+
+
+class Proof(BaseModel):
+    """Everything that is found wrong in a text, in the order of its lines."""
+
+    slips: list[Proved]
+
+
+class Word(BaseModel):
+    """What an application may name: a field, and what stands below it."""
+
+    name: str
+    unit: str
+    meaning: str
+    is_row: bool = Field(description="whether it is a row: `target[0]`")
+    words: list["Word"]
+
+
+class PortWords(BaseModel):
+    """A port that `Sees` or `Does` may have, with the kind that it is about."""
+
+    type: str
+    kind: str = Field(description="the sensor or message; empty for a port that is about none")
+    seen: bool = Field(description="whether it stands in Sees, and not in Does")
+    meaning: str
+    words: list[Word]
+
+
+class FunctionWords(BaseModel):
+    """A function that the contract gives."""
+
+    name: str
+    arguments: list[str]
+    meaning: str
+
+
+class Vocabulary(BaseModel):
+    """Everything that an application may name, taken from the contract and the kinds that are there."""
+
+    ports: list[PortWords]
+    functions: list[FunctionWords]
+    names: list[str] = Field(description="all names of the contract")
+
+
+class Start(BaseModel):
+    """A text to begin an application with."""
+
+    name: str
+    title: str
+    explanation: str
+    text: str
 
 
 class BrokenKind(BaseModel):

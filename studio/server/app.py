@@ -73,6 +73,7 @@ async def lifespan(app: FastAPI) -> AsyncGenerator[None]:
     await ready
     await asyncio.to_thread(desk.warmup.close)
     await asyncio.to_thread(desk.lives.close)
+    await asyncio.to_thread(desk.editions.close)
     await asyncio.to_thread(desk.map_jobs.close)
     await asyncio.to_thread(desk.project_jobs.close)
     await asyncio.to_thread(desk.stages.close)

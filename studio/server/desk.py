@@ -16,6 +16,7 @@ from studio.server.answer import Pace
 from studio.server.documents import Documents, check_inside
 from studio.server.editing import Editing
 from studio.server.editing.history import History
+from studio.server.edition import Editions
 from studio.server.frame import Frame
 from studio.server.ghost import haunting
 from studio.server.live import MOST_LIVE, LiveRun, Lives
@@ -45,6 +46,7 @@ class Desk:
     def __post_init__(self) -> None:
         first = next(iter(self.files().values()), None)
         self.lives = Lives(db=self.db, first=first, kinds=self.kinds, most=self.at_once, on_frame=self.on_frame)
+        self.editions = Editions(self.kinds, self.lives)
         self.documents = Documents(self.scenarios)
         self.scenario_files = Scenarios(self.documents)
         self.editing = Editing(self.documents, History(edits_of(self.db)))
@@ -169,6 +171,7 @@ class Desk:
     def start(self, scenario: str, *, changes: dict[str, Any], seed: int | None, parent: int | None,
               pace: Pace, paused: bool) -> LiveRun:  # fmt: skip
         """Starts a run in a process of its own, or lets it wait for its turn; what is wrong with it is told before."""
+        self.editions.notice()
         loaded = job.seeded(self.load(scenario, changes), seed)
         check_pace(pace)
         order = Order(loaded.path, loaded.source.text, loaded.changes, seed, parent, pace_factor(pace), paused, self.db)

@@ -291,6 +291,7 @@ class Lives:
     def __init__(self, *, db: Path, first: Path | None, kinds: tuple[Path, ...], most: int = MOST_LIVE,
                  on_frame: Callable[[LiveRun, Frame], None]) -> None:  # fmt: skip
         self.db, self.first, self.kinds, self.most, self.on_frame = db, first, kinds, most, on_frame
+        self.kept: tuple[tuple[Path, Path], ...] = ()  # folders, and where versions lie that are used in place of files that do not load
         self.runs: dict[int, LiveRun] = {}
         self.waiting: list[tuple[LiveRun, Order]] = []
         self.spare: Future[Child] | None = None
@@ -311,7 +312,7 @@ class Lives:
         if lost and lost.exception() is None:
             lost.result().end(0.0)  # it may live still, when only who it was split off from has gone
         try:
-            process = Child.begin(worker.main, self.first, self.kinds, prepared=is_warm())
+            process = Child.begin(worker.main, self.first, self.kinds, self.kept, prepared=is_warm())
         except Exception as error:
             promised.set_exception(error)
             return
@@ -320,6 +321,15 @@ class Lives:
             is_late = self.is_closed
         if is_late:
             process.end(0.0)
+
+    def use(self, kept: tuple[tuple[Path, Path], ...]) -> None:
+        """Kinds have changed: the process that waits has the version before, and another takes its place."""
+        self.kept = kept
+        with self.lock:
+            stale, self.spare = self.spare, None
+        if stale is not None:
+            threading.Thread(target=end_stale, args=(stale,), name="a version before", daemon=True).start()
+            self.make_ready()
 
     def take(self) -> Child:
         """The process that waits. Raises OSError when there is none to be had."""
@@ -490,6 +500,12 @@ class Lives:
             live.abandon()
         if self.spare is not None and self.spare.done() and not self.spare.exception():
             self.spare.result().end(0.0)
+
+
+def end_stale(promised: "Future[Child]") -> None:
+    """Ends a process that nobody waits for any more, when it has begun."""
+    if promised.exception() is None:
+        promised.result().end(0.0)
 
 
 def is_lost(promised: "Future[Child]") -> bool:

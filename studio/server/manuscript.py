@@ -1,7 +1,7 @@
 """The file of a kind as its author sees it: its text as it stands on the disk now, whether that is what was loaded, and what Python cannot
 read in it.
 
-It is only read. What a browser sends is never run, so a kind is written in an editor of one's own; the text here follows the file.
+It is only read. What a browser sends is never run: it may write the file itself, where its user allows that, and the text here follows it.
 """
 
 import ast
@@ -23,16 +23,21 @@ class Slip:
 
 @dataclass(frozen=True)
 class Manuscript:
-    """A kind's file: where it lies, its text, whether it is as it was loaded, why it cannot be shown, and what is wrong in it."""
+    """A kind's file: where it lies, its text, whether it is as it was loaded, why it cannot be shown, and what is wrong in it.
+
+    `own` is a file that its author may write in, and `refused` why what stands in it is not used.
+    """
 
     file: str
     text: str
     loaded: bool
     missing: str
     slips: tuple[Slip, ...]
+    own: bool = False
+    refused: str = ""
 
 
-def manuscript(kind: Kind) -> Manuscript:
+def manuscript(kind: Kind, refused: str = "") -> Manuscript:
     """The file of a kind now; what was loaded of it where it cannot be read any more."""
     path = kind.file
     known = kind.texts.get(path.name, "") if path else ""
@@ -44,7 +49,7 @@ def manuscript(kind: Kind) -> Manuscript:
         return Manuscript(str(path), known[:LONGEST], True, error.strerror or str(error), ())
     except UnicodeDecodeError:
         return Manuscript(str(path), known[:LONGEST], True, "it is no text in UTF-8", ())
-    return Manuscript(str(path), text[:LONGEST], text == known, "", slips(text))
+    return Manuscript(str(path), text[:LONGEST], text == known, "", slips(text), not kind.is_built_in, refused)
 
 
 def slips(text: str) -> tuple[Slip, ...]:

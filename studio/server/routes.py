@@ -44,6 +44,9 @@ from studio.store.queue import queue
 from studio.store.runs import LARGEST_RUN, Runs
 from studio.store.stretch import stretch
 from studio.store.verdict import judge, remark, verdicts
+from studio.workshop import vocabulary
+from studio.workshop.proof import proof
+from studio.workshop.start import starts
 from studio.world import channel
 
 PAPER: dict[int | str, dict[str, Any]] = {
@@ -182,16 +185,46 @@ def expected(if_match: str | None) -> str | None:
 
 
 @router.get("/kinds")
-def kinds() -> answer.Kinds:
+def kinds(desk: AtDesk) -> answer.Kinds:
     """All kinds with the schemas of their settings, sort by sort, and the files that are broken."""
+    desk.editions.notice()
     return answer.Kinds(kinds=list(map(answer.kind, registry.every())), broken=list(map(answer.broken_kind, registry.broken())))
 
 
 @router.get("/kinds/{sort}/{name}/source")
-def kind_source(sort: str, name: str) -> answer.Manuscript:
-    """The file of a kind as it stands now, with what Python cannot read in it."""
-    found = manuscript(registry.find(sort, name))
+def kind_source(sort: str, name: str, desk: AtDesk) -> answer.Manuscript:
+    """The file of a kind as it stands now, with what Python cannot read in it; an application that has changed is taken in if it loads."""
+    desk.editions.notice()
+    kind = registry.find(sort, name)
+    found = manuscript(kind, desk.editions.refused(kind.file))
     return answer.Manuscript(**asdict(found))
+
+
+@router.post("/application-proof")
+def application_proof(draft: answer.Draft) -> answer.Proof:
+    """What is wrong in the text of an application, as far as reading tells. The text is parsed and never run."""
+    return answer.Proof(slips=[answer.Proved(**each._asdict()) for each in proof(draft.text)])
+
+
+@router.get("/application-vocabulary")
+def application_vocabulary() -> answer.Vocabulary:
+    """Everything that an application may name, with units and meanings: ports and what stands below them, functions, names."""
+    return answer.Vocabulary(
+        ports=[answer.PortWords(**each._asdict() | {"words": list(map(word, each.words))}) for each in vocabulary.ports()],
+        functions=[answer.FunctionWords(**each._asdict() | {"arguments": list(each.arguments)}) for each in vocabulary.functions()],
+        names=vocabulary.names(),
+    )
+
+
+def word(found: vocabulary.Word) -> answer.Word:
+    """A field with what stands below it."""
+    return answer.Word(**found._asdict() | {"words": list(map(word, found.words))})
+
+
+@router.get("/application-starts")
+def application_starts() -> list[answer.Start]:
+    """Texts to begin an application with: what `studio new application` writes, and the applications that come with the studio."""
+    return [answer.Start(**each._asdict()) for each in starts()]
 
 
 @router.get("/glossary")

@@ -28,6 +28,7 @@ from studio.execution.loop import Pace
 from studio.execution.message import lately
 from studio.execution.simulation import Case, Simulation, simulation
 from studio.kind.registry import load_folder
+from studio.kind.renewal import stand_in, without_bytecode
 from studio.road.ways.relief import relief_of
 from studio.scenario import file
 from studio.server import answer
@@ -234,12 +235,15 @@ class Live:
             self.pipe.send(("samples", record.time, {name: record.trace(name) for name, _, _ in self.channels()}))
 
 
-def main(pipe: Connection, first: Path | None, kinds: tuple[Path, ...]) -> None:
-    """The process: gets ready, waits for its order, runs it."""
+def main(pipe: Connection, first: Path | None, kinds: tuple[Path, ...], kept: tuple[tuple[Path, Path], ...] = ()) -> None:
+    """The process: gets ready, waits for its order, runs it. `kept` are folders, and where versions of their files lie that load."""
     np.random.seed()  # noqa: NPY002 - a user's code may draw from it; split off, every process would draw the same
     try:
-        for folder in kinds:
-            load_folder(folder)
+        for folder, place in kept:
+            stand_in(folder, place)
+        with without_bytecode():
+            for folder in kinds:
+                load_folder(folder)
         warm(first)
         pipe.send(("ready",))
         order, *values = pipe.recv()

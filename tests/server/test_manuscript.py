@@ -25,7 +25,7 @@ def told(client, kind="sensor/flawless"):
 
 def test_the_text_is_that_of_the_file_and_follows_it(studio):
     client, file = studio
-    assert told(client) == {"file": str(file), "text": FLAWLESS, "loaded": True, "missing": "", "slips": []}
+    assert told(client) == {"file": str(file), "text": FLAWLESS, "loaded": True, "missing": "", "slips": [], "own": True, "refused": ""}
     ran = file.with_name("ran")
     file.write_text(f"open({str(ran)!r}, 'w')\n" + FLAWLESS)
     now = told(client)

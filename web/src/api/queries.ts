@@ -36,6 +36,27 @@ export const manuscript = (sort: string, name: string) =>
     refetchInterval: 2000,
   });
 
+/** What is wrong in the text of an application: the server reads it, and never runs it. */
+export const textProof = (text: string) =>
+  queryOptions({
+    queryKey: ["application proof", text],
+    queryFn: () => answer(client.POST("/api/application-proof", { body: { text } })),
+    gcTime: 30_000,
+    staleTime: 30_000,
+  });
+
+/** Everything that an application may name; a new sensor is in it by itself. */
+export const vocabulary = queryOptions({
+  queryKey: ["application vocabulary"],
+  queryFn: () => answer(client.GET("/api/application-vocabulary")),
+});
+
+/** Texts to begin an application with. */
+export const applicationStarts = queryOptions({
+  queryKey: ["application starts"],
+  queryFn: () => answer(client.GET("/api/application-starts")),
+});
+
 /** What channels and metrics are called, and what they mean; it stays for as long as the server runs. */
 export const glossary = queryOptions({
   queryKey: ["glossary"],

@@ -249,6 +249,22 @@ const mapRoute = createRoute({
   },
 });
 
+const SourcePage = lazy(async () => ({ default: (await import("../features/sources/SourcePage")).SourcePage }));
+
+const sourceRoute = createRoute({
+  getParentRoute: () => root,
+  path: "/source/$name",
+  validateSearch: ({ start }: Record<string, unknown>): { start?: string | undefined } => ({ start: text(start) }),
+  component: function Source() {
+    const { name } = sourceRoute.useParams();
+    return (
+      <Suspense fallback={<Loading what="the source" />}>
+        <SourcePage key={name} name={name} start={sourceRoute.useSearch().start} />
+      </Suspense>
+    );
+  },
+});
+
 const kindsRoute = createRoute({
   getParentRoute: () => root,
   path: "/kinds",
@@ -273,6 +289,7 @@ export const router = createRouter({
     mapsRoute,
     mapRoute,
     kindsRoute,
+    sourceRoute,
     validateRoute,
     projectRoute,
   ]),

@@ -125,9 +125,69 @@ export interface paths {
         };
         /**
          * Kind Source
-         * @description The file of a kind as it stands now, with what Python cannot read in it.
+         * @description The file of a kind as it stands now, with what Python cannot read in it; an application that has changed is taken in if it loads.
          */
         get: operations["kind_source_api_kinds__sort___name__source_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/application-proof": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Application Proof
+         * @description What is wrong in the text of an application, as far as reading tells. The text is parsed and never run.
+         */
+        post: operations["application_proof_api_application_proof_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/application-vocabulary": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Application Vocabulary
+         * @description Everything that an application may name, with units and meanings: ports and what stands below them, functions, names.
+         */
+        get: operations["application_vocabulary_api_application_vocabulary_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/application-starts": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Application Starts
+         * @description Texts to begin an application with: what `studio new application` writes, and the applications that come with the studio.
+         */
+        get: operations["application_starts_api_application_starts_get"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1961,6 +2021,14 @@ export interface components {
             bytes: number;
         };
         /**
+         * Draft
+         * @description The text of an application, as somebody is writing it. It is parsed, and never run.
+         */
+        Draft: {
+            /** Text */
+            text: string;
+        };
+        /**
          * Drawn
          * @description A signal to be drawn, thinned; extremes are kept.
          */
@@ -2323,6 +2391,18 @@ export interface components {
              * @default []
              */
             handles: components["schemas"]["Handle"][];
+        };
+        /**
+         * FunctionWords
+         * @description A function that the contract gives.
+         */
+        FunctionWords: {
+            /** Name */
+            name: string;
+            /** Arguments */
+            arguments: string[];
+            /** Meaning */
+            meaning: string;
         };
         /**
          * Gap
@@ -3129,6 +3209,16 @@ export interface components {
             missing: string;
             /** Slips */
             slips: components["schemas"]["Slip"][];
+            /**
+             * Own
+             * @description whether it is a user's own file, and not one of the studio's
+             */
+            own: boolean;
+            /**
+             * Refused
+             * @description of an application: why what stands there is not used, and the version before is; empty when it is
+             */
+            refused: string;
         };
         /**
          * ManyTags
@@ -4326,6 +4416,28 @@ export interface components {
             ][];
         };
         /**
+         * PortWords
+         * @description A port that `Sees` or `Does` may have, with the kind that it is about.
+         */
+        PortWords: {
+            /** Type */
+            type: string;
+            /**
+             * Kind
+             * @description the sensor or message; empty for a port that is about none
+             */
+            kind: string;
+            /**
+             * Seen
+             * @description whether it stands in Sees, and not in Does
+             */
+            seen: boolean;
+            /** Meaning */
+            meaning: string;
+            /** Words */
+            words: components["schemas"]["Word"][];
+        };
+        /**
          * Preset
          * @description Settings of a kind that belong together, by the name that a scenario gives as `preset`.
          */
@@ -4526,6 +4638,34 @@ export interface components {
             valid: boolean | null;
             /** Problem */
             problem: string | null;
+        };
+        /**
+         * Proof
+         * @description Everything that is found wrong in a text, in the order of its lines.
+         */
+        Proof: {
+            /** Slips */
+            slips: components["schemas"]["Proved"][];
+        };
+        /**
+         * Proved
+         * @description Something wrong in a text, found by reading alone.
+         */
+        Proved: {
+            /**
+             * Line
+             * @description from 1 on
+             */
+            line: number;
+            /**
+             * Column
+             * @description from 1 on
+             */
+            column: number;
+            /** What */
+            what: string;
+            /** Remedy */
+            remedy: string;
         };
         /**
          * Quantity
@@ -5222,6 +5362,20 @@ export interface components {
             not_recorded: string[];
         };
         /**
+         * Start
+         * @description A text to begin an application with.
+         */
+        Start: {
+            /** Name */
+            name: string;
+            /** Title */
+            title: string;
+            /** Explanation */
+            explanation: string;
+            /** Text */
+            text: string;
+        };
+        /**
          * Started
          * @description The number of a run that has begun, or that waits for its turn.
          */
@@ -5461,6 +5615,21 @@ export interface components {
             when: string;
         };
         /**
+         * Vocabulary
+         * @description Everything that an application may name, taken from the contract and the kinds that are there.
+         */
+        Vocabulary: {
+            /** Ports */
+            ports: components["schemas"]["PortWords"][];
+            /** Functions */
+            functions: components["schemas"]["FunctionWords"][];
+            /**
+             * Names
+             * @description all names of the contract
+             */
+            names: string[];
+        };
+        /**
          * WantedStage
          * @description The stage that a page had before it was loaded again; null for one that has none yet.
          */
@@ -5515,6 +5684,25 @@ export interface components {
              * @description whether it was past its peak of slip
              */
             slides: boolean;
+        };
+        /**
+         * Word
+         * @description What an application may name: a field, and what stands below it.
+         */
+        Word: {
+            /** Name */
+            name: string;
+            /** Unit */
+            unit: string;
+            /** Meaning */
+            meaning: string;
+            /**
+             * Is Row
+             * @description whether it is a row: `target[0]`
+             */
+            is_row: boolean;
+            /** Words */
+            words: components["schemas"]["Word"][];
         };
     };
     responses: never;
@@ -6522,6 +6710,367 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Manuscript"];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The server is open to a network, and the header `Authorization: Bearer TOKEN` is not its token. */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Another origin or name, or something that may be read only. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description There is no such thing. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The address has no such method. */
+            405: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is over, or not as the request expects it. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It has changed meanwhile. */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is too much. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Something in it is wrong. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description A mistake of the studio. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The database cannot be used now, or is damaged. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+        };
+    };
+    application_proof_api_application_proof_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["Draft"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Proof"];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The server is open to a network, and the header `Authorization: Bearer TOKEN` is not its token. */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Another origin or name, or something that may be read only. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description There is no such thing. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The address has no such method. */
+            405: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is over, or not as the request expects it. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It has changed meanwhile. */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is too much. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Something in it is wrong. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description A mistake of the studio. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The database cannot be used now, or is damaged. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+        };
+    };
+    application_vocabulary_api_application_vocabulary_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Vocabulary"];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The server is open to a network, and the header `Authorization: Bearer TOKEN` is not its token. */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Another origin or name, or something that may be read only. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description There is no such thing. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The address has no such method. */
+            405: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is over, or not as the request expects it. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It has changed meanwhile. */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is too much. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Something in it is wrong. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description A mistake of the studio. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The database cannot be used now, or is damaged. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+        };
+    };
+    application_starts_api_application_starts_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Start"][];
                 };
             };
             /** @description The body is no JSON. */

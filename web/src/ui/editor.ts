@@ -25,6 +25,9 @@ const COLOURS = HighlightStyle.define([
   { tag: [tags.string, tags.special(tags.string)], color: "light-dark(#1f6b2d, var(--mantine-color-green-4))" },
   { tag: tags.comment, color: colour("gray-7", "dark-1"), fontStyle: "italic" },
   { tag: [tags.labelName, tags.typeName, tags.meta], color: colour("grape-8", "grape-3") },
+  { tag: [tags.keyword, tags.operatorKeyword, tags.controlKeyword], color: colour("grape-8", "grape-3") },
+  { tag: [tags.definition(tags.variableName), tags.definition(tags.className)], color: colour("blue-9", "blue-3") },
+  { tag: [tags.number, tags.bool, tags.null], color: "light-dark(#8a3b00, var(--mantine-color-orange-3))" },
 ]);
 
 const LOOK = EditorView.theme({
@@ -47,6 +50,11 @@ const LOOK = EditorView.theme({
     color: "var(--mantine-color-text)",
     border: "1px solid var(--mantine-color-default-border)",
   },
+  ".cm-tooltip-autocomplete ul li[aria-selected]": {
+    backgroundColor: "light-dark(var(--mantine-color-blue-1), var(--mantine-color-blue-9))",
+    color: "var(--mantine-color-text)",
+  },
+  ".cm-completionDetail": { color: "var(--mantine-color-dimmed)", fontStyle: "normal" },
   ".cm-textfield, .cm-button": {
     backgroundColor: "var(--mantine-color-default)",
     backgroundImage: "none",
@@ -60,13 +68,19 @@ interface Asked {
   /** What a screen reader says of it. */
   label: string;
   onText: (text: string) => void;
+  /** What the text is written in, and what helps with that; YAML where nothing is said. */
+  language?: Extension;
+  readOnly?: boolean;
 }
 
 /** An editor in a place of the page. Tab leaves it, as everywhere; Ctrl+] and Ctrl+[ indent. */
-export function openEditor(place: HTMLElement, { text, label, onText }: Asked): EditorView {
+export function openEditor(place: HTMLElement, { text, label, onText, language = yaml(), readOnly = false }: Asked): EditorView {
   const view: EditorView = new EditorView({
     parent: place,
-    state: EditorState.create({ doc: text, extensions: [...extensions(text, label), telling(onText)] }),
+    state: EditorState.create({
+      doc: text,
+      extensions: [language, EditorState.readOnly.of(readOnly), ...extensions(text, label), telling(onText)],
+    }),
   });
   return view;
 }
@@ -121,7 +135,6 @@ const extensions = (text: string, label: string): Extension[] => [
   highlightSelectionMatches(),
   bracketMatching(),
   indentUnit.of("  "),
-  yaml(),
   syntaxHighlighting(COLOURS),
   search({ top: true }),
   LOOK,

@@ -1,6 +1,6 @@
 /** Everything that may be named in a scenario, with where it comes from, and the files that are broken. */
 
-import { Alert, CloseButton, Code, Table, Text, TextInput, Title } from "@mantine/core";
+import { Alert, Button, CloseButton, Code, Table, Text, TextInput, Title } from "@mantine/core";
 import { useQuery } from "@tanstack/react-query";
 import { useRef, useState } from "react";
 import { kinds } from "../../api/queries";
@@ -10,6 +10,7 @@ import { formatValue, unitText, words } from "../../model/units";
 import { Icon } from "../../ui/Icon";
 import { Failure, Loading } from "../../ui/State";
 import { useShortcuts } from "../../ui/shortcut";
+import { NewApplication } from "../sources/NewApplication";
 import classes from "./Kinds.module.css";
 import { SourceView } from "./SourceView";
 
@@ -17,6 +18,7 @@ export function KindsPage() {
   const { data, error, refetch } = useQuery(kinds);
   const [query, setQuery] = useState("");
   const search = useRef<HTMLInputElement>(null);
+  const [beginning, setBeginning] = useState(false);
   useShortcuts({ "/": () => search.current?.focus() });
   if (error) return <Failure error={error} onRetry={() => void refetch()} />;
   if (!data) return <Loading what="the kinds" />;
@@ -40,6 +42,9 @@ export function KindsPage() {
           value={query}
           onChange={(event) => setQuery(event.currentTarget.value)}
         />
+        <Button size="xs" variant="default" ml="auto" leftSection={<Icon name="plus" size={14} />} onClick={() => setBeginning(true)}>
+          New application …
+        </Button>
       </header>
       <Text size="sm" c="dimmed">
         Whatever a scenario may name is a kind: one file. Yours stand in the folder that <Code>--kinds</Code> names;{" "}
@@ -59,6 +64,7 @@ export function KindsPage() {
           ))}
         </section>
       ))}
+      {beginning ? <NewApplication onClose={() => setBeginning(false)} /> : null}
     </article>
   );
 }
