@@ -9,7 +9,7 @@ from studio import job
 @pytest.fixture(scope="module")
 def record(root):
     """The sample in which A goes round a box, from the start to its end."""
-    return job.run(job.prepare(job.load(root / "scenarios" / "celc.yaml"))).record
+    return job.run(job.load(root / "scenarios" / "celc.yaml")).record
 
 
 def test_the_box_is_ahead_until_the_body_is_clear_of_it(record):

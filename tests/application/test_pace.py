@@ -75,7 +75,7 @@ def test_nobody_is_ahead_of_a_parked_car(ten):
     """Who drives past on the aisle is beside it: no gap, no time to collision, and no post-encroachment time of ways that only touch."""
     for stay in stays(ten):
         row = ten.vehicles.index(stay.vehicle)
-        parked = (trace(ten, stay.vehicle, "phase") == 3.0) & (np.abs(ten.channel("speed")[row]) < 0.01)
+        parked = (trace(ten, stay.vehicle, "phase") == 2.0) & (np.abs(ten.channel("speed")[row]) < 0.01)
         assert parked.sum() > 100 and np.isnan(ten.channel("gap")[row][parked]).all()
     assert min((each.value for each in encroachments(ten)), default=0.0) >= 0.0
 
