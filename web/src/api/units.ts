@@ -2,7 +2,7 @@
 
 import { useQueries, useQuery } from "@tanstack/react-query";
 import { useMemo } from "react";
-import { unitsOf } from "../model/form";
+import { type KnownKind, unitsOf, unitsOfKinds } from "../model/form";
 import type { Run } from "../model/run";
 import { kinds, scenario } from "./queries";
 
@@ -18,6 +18,6 @@ export function useUnits(runs: readonly Run[]): Record<string, string> {
     const all = found.map(({ document, given, schema }) =>
       unitsOf({ document, given, schema, kinds: known?.kinds ?? [], changes: {} }),
     );
-    return Object.assign({}, ...all) as Record<string, string>;
+    return Object.assign({}, unitsOfKinds((known?.kinds ?? []) as KnownKind[]), ...all) as Record<string, string>;
   }, [found, known]);
 }

@@ -266,6 +266,18 @@ describe("suggestions", () => {
 });
 
 describe("units and values by path", () => {
+  it("gives a goal the unit of its measure, which stands with the kinds", () => {
+    const bounds = { type: "object", properties: { least: { type: "number" }, most: { type: "number" } } };
+    const schema = { type: "object", properties: { goals: { type: "object", additionalProperties: bounds } } };
+    const of = (name: string, unit: string) =>
+      ({ sort: "metric", name, title: name, description: "", source: "", settings: null, gives: [{ name, unit, size: 1, meaning: name }], presets: [] });
+    const goals = { min_ttc: { least: 1.2, most: 9 }, collisions: { least: 0, most: 0 } };
+    const made = sections({ document: { goals }, given: { goals }, schema, kinds: [of("min_ttc", "s"), of("collisions", "1")], changes: {} } as Parameters<typeof sections>[0]);
+    expect(Object.fromEntries(fieldsOf(made).map(({ path, unit }) => [path, unit]))).toEqual({
+      "goals.min_ttc.least": "s", "goals.min_ttc.most": "s", "goals.collisions.least": "", "goals.collisions.most": "",
+    });
+  });
+
   it("finds the unit of an exchanged kind's setting by its name", () => {
     const units = unitsOf(source());
     expect(unitAt(units, "radio.delay")).toBe("s");

@@ -106,8 +106,18 @@ export function sections(source: Source): Section[] {
     ? [{ path: "", title: "General", description: "", fields: all.fields, sections: [] }]
     : [];
   const place = (path: string) => (ORDER.includes(path) ? ORDER.indexOf(path) : ORDER.length);
-  const filled = all.sections.filter((section) => notEmpty(section));
+  const filled = all.sections.filter((section) => notEmpty(section)).map((section) => (section.path === "goals" ? measured(section, source.kinds) : section));
   return marked([...filled.sort((a, b) => place(a.path) - place(b.path)), ...general], source.given);
+}
+
+/** Goals have the units of their measures, which stand with the kinds and not in the schema. */
+function measured(section: Section, kinds: readonly KnownKind[]): Section {
+  const unit = (name: string) => unitText(kinds.find((each) => each.sort === "metric" && each.name === name)?.gives[0]?.unit);
+  return {
+    ...section,
+    fields: section.fields.map((each) => ({ ...each, unit: each.unit || unit(each.path.split(".")[1] ?? "") })),
+    sections: section.sections.map((each) => measured(each, kinds)),
+  };
 }
 
 /** The form with what neither the file nor the user says marked as such. */
@@ -463,11 +473,16 @@ export function placed(problems: readonly Problem[], paths: readonly string[]): 
 /** The unit of every setting of a scenario, by path; of every kind's settings by `*` and name. */
 export function unitsOf(source: Source): Record<string, string> {
   const fields = fieldsOf(sections(source)).map(({ path, unit }) => [path, unit] as const);
-  const settings = source.kinds.flatMap(({ settings: schema }) =>
-    Object.entries(schema?.properties ?? {}).map(([key, { unit }]) => [`*.${key}`, unitText(unit)] as const),
-  );
-  return Object.fromEntries([...settings, ...fields]);
+  return { ...unitsOfKinds(source.kinds), ...Object.fromEntries(fields) };
 }
+
+/** The unit of every setting of the kinds, by `*` and its name: all that is known of a scenario that is not there any more. */
+export const unitsOfKinds = (kinds: readonly KnownKind[]): Record<string, string> =>
+  Object.fromEntries(
+    kinds.flatMap(({ settings: schema }) =>
+      Object.entries(schema?.properties ?? {}).map(([key, { unit }]) => [`*.${key}`, unitText(unit)] as const),
+    ),
+  );
 
 /** The unit of a path; a setting of a kind that was exchanged since is found by its name. */
 export const unitAt = (units: Record<string, string>, path: string): string =>
