@@ -25,11 +25,11 @@ export function Head({ state, news, onUndo, onRedo }: Props) {
       <TurnButton step={last} icon="undo" what="Undo" keys="Ctrl+Z" onClick={onUndo} />
       <TurnButton step={next} icon="redo" what="Redo" keys="Ctrl+Shift+Z" onClick={onRedo} />
       <StepList state={state} />
-      <Text size="xs" c="dimmed" role="status" className={classes.status}>
+      <Text size="xs" c={news.gone ? "red" : "dimmed"} role="status" className={classes.status}>
         {saying(state, news)}
       </Text>
       <Button size="xs" component={Link} to="/studio/$scenario" params={params} search={{} as never} leftSection={<Icon name="run" size={14} />}>
-        Run
+        Open in the studio
       </Button>
       <Button size="xs" variant="default" component={Link} to="/scenarios/$scenario/text" params={params} leftSection={<Icon name="text" size={14} />}>
         Text
@@ -39,7 +39,7 @@ export function Head({ state, news, onUndo, onRedo }: Props) {
 }
 
 function saying(state: Editing, { connected, by, gone }: Props["news"]): string {
-  if (gone) return gone.message;
+  if (gone) return [gone.message, ...gone.problems.map(({ what, remedy }) => [what, remedy].filter(Boolean).join(": "))].join(" ");
   if (!connected) return "The server does not answer. What was saved is safe; nothing more can be saved until it answers, and it is asked again and again.";
   if (state.sealed) return "Read only";
   if (by && by.revision === state.revision) return `“${by.name}” by ${by.who || "another program"}`;
