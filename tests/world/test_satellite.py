@@ -7,6 +7,7 @@ import pytest
 
 from studio import job
 from studio.application.contract import Own
+from studio.bound import Chain, Link
 from studio.model import satellite
 from studio.road.network import Building, shadow
 from studio.vehicle.state import ACTIVE, VEHICLE, X, Y
@@ -165,8 +166,9 @@ def test_settings_reach_their_cars(world):
 def test_errors_are_recorded(world):
     tick(world)
     names = [channel.name for channel in CHANNELS]
-    values = np.zeros((1, len(CHANNELS), 5))
-    sampler(world, np.arange(5), values)(0, 0)
+    values, times, count = np.zeros((1, len(CHANNELS), 5)), np.zeros(1), np.zeros(1, dtype=np.int64)
+    Chain([Link(sampler(world, np.arange(5), count, times, values), lambda *told: pytest.fail(str(told)))])(0, 0.5)
+    assert count[0] == 1 and times[0] == 0.5
     for name, row in (("gps_error_east", GPS_EAST), ("gps_error_north", GPS_NORTH)):
         assert np.array_equal(values[0, names.index(name)], world.units.satellite[row, :5])
 
