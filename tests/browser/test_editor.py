@@ -427,3 +427,33 @@ def test_a_trigger_is_made_of_what_the_kinds_offer(page, path):
     expect(when).to_contain_text("s at the earliest")
     form.get_by_role("textbox", name="Along its route").fill("850")
     expect(when).to_contain_text("never: first at the earliest comes at")
+
+
+def test_applications_goals_and_sensors_are_added_and_taken_out(page, path):
+    """What has no place on the plan: with the units, the bound and the sensors by default that a file would have."""
+    part = page.get_by_role("region", name="Applications: add and take out")
+    part.get_by_placeholder("choose").fill("radar only")
+    page.get_by_role("option", name="Adaptive cruise control (radar only)").click()
+    part.get_by_role("button", name="Add it").click()
+    expect(part.get_by_role("button", name="Take acc out")).to_be_visible()
+    assert document(path)["applications"]["acc"]["application"] == "acc"
+    goals = page.get_by_role("region", name="Goals: add and take out")
+    goals.get_by_placeholder("a measure").fill("Least time to")
+    page.get_by_role("option", name="Least time to collision", exact=True).click()
+    goals.get_by_label("Value of the goal").fill("1.5")
+    expect(goals).to_contain_text("s")
+    goals.get_by_role("button", name="Add the goal").click()
+    done(page, "Add a goal for min_ttc")
+    assert document(path)["goals"]["min_ttc"] == {"least": 1.5}
+    before = document(path)["vehicles"]["first"]["sensors"]
+    row(page, "first").click()
+    sensors = page.get_by_role("region", name="Sensors: add and take out")
+    expect(sensors.get_by_role("button", name="Take front out")).to_be_visible()
+    sensors.get_by_placeholder("choose").fill("odo")
+    page.get_by_role("option", name="Odometry").click()
+    sensors.get_by_role("button", name="Add it").click()
+    done(page, "Add odometry to first")
+    assert document(path)["vehicles"]["first"]["sensors"] == {**before, "odometry": {"kind": "odometry"}}
+    sensors.get_by_role("button", name="Take odometry out").click()
+    done(page, "Take odometry out")
+    assert document(path)["vehicles"]["first"]["sensors"] == before

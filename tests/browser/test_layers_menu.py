@@ -72,7 +72,7 @@ def test_before_a_run_the_menu_says_what_there_is_nothing_of(tmp_path, sample):
         expect(loading).to_have_count(0)
         page.get_by_role("button", name="Layers").click()
         panel = page.get_by_role("dialog", name="Layers", exact=True)
-        expect(panel.get_by_text("Not shown: nothing of it before a run")).to_have_count(8)
+        expect(panel.get_by_text("Not shown: nothing of it before a run")).to_have_count(9)
         page.keyboard.press("Escape")
         page.get_by_role("combobox", name="Scenario").select_option("parking_deck")
         expect(loading).to_contain_text("Parking deck")

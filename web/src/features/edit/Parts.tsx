@@ -157,7 +157,7 @@ function Adder({ label, data, onAdd }: AdderProps) {
           setChosen(null);
         }}
       >
-        Add
+        Add it
       </Button>
     </Group>
   );
