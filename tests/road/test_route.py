@@ -131,5 +131,5 @@ def test_trips_where_a_link_is_swallowed_by_its_junctions(tmp_path, own_cache, a
     for seed in range(1, 25):
         assert trip(town, seed=seed).length > 60.0
     length = town.lanes_of("15")[0].length
-    told = [each.element for each in town.report.guesses if each.kind == "short road"]
+    told = [each.where for each in town.report.guesses if each.kind == "short road"]
     assert told == (["way 15"] if length < 1.0 else []) and (apart < 25 or length > 1.0)
