@@ -96,7 +96,10 @@ def test_3_a_note_leads_to_its_times_and_holds_no_html(page):
         "# Late\n**brakes** at @1.5 s <img src=x onerror=alert(1)>\n- [paper](https://example.org/a)"
     )
     form = page.get_by_role("form", name="Name, tags and note of run 2")
-    form.get_by_role("button", name="Save").click()
+    save = form.get_by_role("button", name="Save")
+    save.click()
+    expect(save).to_be_disabled()  # it is kept now: nothing is left to save
+    expect(save).not_to_have_attribute("data-loading", "true")
     read = page.get_by_role("region", name="The note as it is read")
     expect(read.locator("b")).to_have_text("brakes")
     expect(read).to_contain_text("<img src=x onerror=alert(1)>")

@@ -1,6 +1,6 @@
 /** Everything the page reads from the server, with the keys under which it is kept. */
 
-import { keepPreviousData, type QueryClient, queryOptions, useMutation, useQueryClient } from "@tanstack/react-query";
+import { keepPreviousData, type QueryClient, queryOptions, useMutation, useQuery, useQueryClient } from "@tanstack/react-query";
 import { type Changes, EXPLAINED, type Filled, isLive, type ListedRun, type Queued, type RunDetail, type Server } from "../model/run";
 import { answer, client } from "./client";
 import { numbersOf, type SideBySide } from "../model/beside";
@@ -231,6 +231,9 @@ export const aggregates = ({ runs, ...query }: { runs: readonly number[]; channe
     staleTime: Infinity,
     retry: false,
   });
+
+/** The same, once it makes sense to ask. */
+export const useAggregates = (asked: Parameters<typeof aggregates>[0], enabled: boolean) => useQuery({ ...aggregates(asked), enabled });
 
 /** Why things happened in a run that is over. */
 export const explanations = ({ run, status, events }: Pick<RunDetail, "run" | "status" | "events">) =>

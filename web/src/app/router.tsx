@@ -249,7 +249,7 @@ const mapRoute = createRoute({
   },
 });
 
-const SourcePage = lazy(async () => ({ default: (await import("../features/sources/SourcePage")).SourcePage }));
+const SourcePage = lazy(async () => ({ default: (await import("../features/kinds/SourcePage")).SourcePage }));
 
 const sourceRoute = createRoute({
   getParentRoute: () => root,

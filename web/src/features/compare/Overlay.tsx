@@ -5,7 +5,7 @@ import { useQueries } from "@tanstack/react-query";
 import { Link } from "@tanstack/react-router";
 import { type ReactNode, useMemo, useState } from "react";
 import { useGlossary } from "../../api/glossary";
-import { beyond as beyondQuery, run as runQuery, trace } from "../../api/queries";
+import { beyond as beyondQuery, run as runQuery, trace, useAggregates } from "../../api/queries";
 import { Stroke } from "../../charts/Stroke";
 import { type Columns, type Line, TimeChart } from "../../charts/TimeChart";
 import { useZoom, type Zoom } from "../../charts/zoom";
@@ -18,7 +18,7 @@ import { formatDifference, words } from "../../model/units";
 import { useDark } from "../../ui/dark";
 import { QuantitySelect } from "../../ui/QuantitySelect";
 import { Empty, Failure, Loading } from "../../ui/State";
-import { Aggregates } from "../runs/Aggregates";
+import { Aggregates } from "../../ui/Aggregates";
 import classes from "./Compare.module.css";
 import { styleOf } from "./line";
 
@@ -42,7 +42,7 @@ export function Overlay({ found }: { found: SideBySide }) {
       <Charts found={found} details={details} />
       <section className={classes.card} aria-label="A channel in numbers">
         <h2>A channel in numbers</h2>
-        <Aggregates runs={details} />
+        <Aggregates runs={details} useFound={useAggregates} />
       </section>
     </>
   );

@@ -13,7 +13,7 @@ import { liftOf, type Place } from "../../model/editing/sight";
 import type { Plan } from "../../model/map";
 import { useDark } from "../../ui/dark";
 import { notify } from "../../ui/notify";
-import { useBridge, useMap } from "../studio/bridge";
+import { useBridge, useMap } from "../../api/bridge";
 import classes from "./Edit.module.css";
 import { Hand, type World } from "./hand";
 

@@ -10,7 +10,7 @@ import { formatValue, unitText, words } from "../../model/units";
 import { Icon } from "../../ui/Icon";
 import { Failure, Loading } from "../../ui/State";
 import { useShortcuts } from "../../ui/shortcut";
-import { NewApplication } from "../sources/NewApplication";
+import { NewApplication } from "./NewApplication";
 import classes from "./Kinds.module.css";
 import { SourceView } from "./SourceView";
 

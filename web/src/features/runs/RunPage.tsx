@@ -5,7 +5,7 @@ import { useQuery } from "@tanstack/react-query";
 import { Link, useNavigate } from "@tanstack/react-router";
 import { type ReactNode, useMemo, useState } from "react";
 import { useGlossary } from "../../api/glossary";
-import { beyond as beyondQuery, explanations, kinds as kindsQuery, run as runQuery, runs as runsQuery, trace } from "../../api/queries";
+import { beyond as beyondQuery, explanations, kinds as kindsQuery, run as runQuery, runs as runsQuery, trace, useAggregates } from "../../api/queries";
 import { useUnits } from "../../api/units";
 import { type Columns, type Line, TimeChart } from "../../charts/TimeChart";
 import { useZoom, type Zoom } from "../../charts/zoom";
@@ -28,7 +28,7 @@ import { Empty, Failure, Loading } from "../../ui/State";
 import { StatusBadge } from "../../ui/StatusBadge";
 import { VerdictBadge } from "../../ui/VerdictBadge";
 import classes from "./Runs.module.css";
-import { Aggregates } from "./Aggregates";
+import { Aggregates } from "../../ui/Aggregates";
 import { ExportMenu } from "./ExportMenu";
 import { VerdictCard } from "./VerdictCard";
 
@@ -80,7 +80,7 @@ function Detail({ run }: { run: RunDetail }) {
         <Charts run={run} />
         {isLive(run.status) || run.channels.length === 0 ? null : (
           <Card title="A channel in numbers">
-            <Aggregates runs={[run]} />
+            <Aggregates runs={[run]} useFound={useAggregates} />
           </Card>
         )}
         <Explanations run={run} onSeek={seek} />

@@ -10,7 +10,7 @@ import { isTraffic } from "../../model/channel";
 import { formatDifference, words } from "../../model/units";
 import { useDark } from "../../ui/dark";
 import { Icon } from "../../ui/Icon";
-import { cameraIn, useBridge, useMap, type View } from "./bridge";
+import { cameraIn, useBridge, useMap, type View } from "../../api/bridge";
 import { LayersMenu } from "./LayersMenu";
 import { type Sight, useLayers } from "./sight";
 import classes from "./Studio.module.css";

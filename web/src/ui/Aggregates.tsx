@@ -1,19 +1,31 @@
 /** A recorded channel of one run, or of several beside each other, in a few numbers: of all of it or of a stretch, and at an event. */
 
 import { Group, NativeSelect, Select, Table, Text, TextInput } from "@mantine/core";
-import { useQuery } from "@tanstack/react-query";
 import { useState } from "react";
-import { aggregates } from "../../api/queries";
-import { commonKinds } from "../../model/beside";
-import type { RunDetail } from "../../model/run";
-import { boundOf, common, NAMES } from "../../model/aggregate";
-import { formatNumber, formatTime, withUnit, words } from "../../model/units";
-import { Failure, Loading } from "../../ui/State";
+import { commonKinds } from "../model/beside";
+import type { RunDetail, Server } from "../model/run";
+import { boundOf, common, NAMES } from "../model/aggregate";
+import { formatNumber, formatTime, withUnit, words } from "../model/units";
+import { Failure, Loading } from "./State";
 
 /** So many channels are listed at a time; the rest is found by typing. */
 const LISTED = 100;
 
-export function Aggregates({ runs }: { runs: readonly RunDetail[] }) {
+interface Asked {
+  runs: readonly number[];
+  channel: string;
+  begin: number | undefined;
+  end: number | undefined;
+  event: string;
+}
+
+interface Props {
+  runs: readonly RunDetail[];
+  /** Asks the server, once that makes sense. */
+  useFound: (asked: Asked, isAsked: boolean) => { data: Found | undefined; error: Error | null; refetch: () => unknown };
+}
+
+export function Aggregates({ runs, useFound }: Props) {
   const channels = common(runs);
   const [chosen, setChosen] = useState<string>();
   const [from, setFrom] = useState("");
@@ -22,10 +34,8 @@ export function Aggregates({ runs }: { runs: readonly RunDetail[] }) {
   const channel = channels.find(({ name }) => name === chosen) ?? channels.find(({ name }) => name.endsWith(".speed")) ?? channels[0];
   const [begin, end] = [boundOf(from), boundOf(to)];
   const isAsked = channel !== undefined && begin !== null && end !== null;
-  const { data, error, refetch } = useQuery({
-    ...aggregates({ runs: runs.map(({ run }) => run), channel: channel?.name ?? "", begin: begin ?? undefined, end: end ?? undefined, event }),
-    enabled: isAsked,
-  });
+  const asked = { runs: runs.map(({ run }) => run), channel: channel?.name ?? "", begin: begin ?? undefined, end: end ?? undefined, event };
+  const { data, error, refetch } = useFound(asked, isAsked);
   if (!channel) return <Text size="sm">No channel was recorded in {runs.length > 1 ? "all of them" : "it"}.</Text>;
   const wrong = (bound: number | null | undefined) => (bound === null ? "a number of seconds, such as 12.5" : undefined);
   return (
@@ -59,7 +69,7 @@ export function Aggregates({ runs }: { runs: readonly RunDetail[] }) {
   );
 }
 
-type Found = NonNullable<Awaited<ReturnType<NonNullable<ReturnType<typeof aggregates>["queryFn"]>>>>;
+type Found = Server["Aggregated"][];
 
 function Found({ found, channel, isAtEvent }: { found: Found; channel: { name: string; unit: string }; isAtEvent: boolean }) {
   const kinds = (found[0]?.aggregates ?? []).filter(({ kind }) => isAtEvent || kind !== "at_event");

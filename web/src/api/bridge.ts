@@ -1,10 +1,10 @@
 /** Messages between the page and the 3D scene in its frame. */
 
 import { type RefObject, useCallback, useEffect, useState } from "react";
-import type { SceneVehicle } from "../../api/types";
-import type { Camera } from "../../model/camera";
-import type { Marks } from "../../model/editing/mark";
-import type { Layers } from "../../model/layer";
+import type { SceneVehicle } from "./types";
+import type { Camera } from "../model/camera";
+import type { Marks } from "../model/editing/mark";
+import type { Layers } from "../model/layer";
 
 export type View = "overview" | "top" | "chase" | "driver";
 
