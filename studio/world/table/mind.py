@@ -43,7 +43,7 @@ CAREFUL = MIND.row(
     "careful_speed", "m/s", "speed from which one can still stop for somebody whom a corner hides; infinite where none matters",
 )  # fmt: skip
 GAP = MIND.row(
-    "gap", "m", "bumper to bumper, to the vehicle or object ahead on the own path; not a number when there is none",
+    "gap", "m", "bumper to bumper, to the nearest on the own path that the body is not clear of sideways; not a number when there is none",
     label="Gap to the car ahead",
 )  # fmt: skip
 AHEAD_SPEED = MIND.row("ahead_speed", "m/s", "speed of what is ahead", label="Speed of the car ahead")

@@ -89,6 +89,7 @@ function Goals({ state, kinds, onDeed }: Props) {
       <Group gap={6} align="end" wrap="nowrap">
         <NativeSelect
           size="xs"
+          w={96}
           aria-label="Bound of the goal"
           data={[
             { value: "least", label: "at least" },
@@ -97,11 +98,11 @@ function Goals({ state, kinds, onDeed }: Props) {
           value={bound}
           onChange={(event) => setBound(event.currentTarget.value)}
         />
-        <NumberEntry size="xs" aria-label="Value of the goal" unit={unit || undefined} value={value} onNumber={setValue} onEmpty={() => setValue("")} />
-        <Button size="xs" variant="default" disabled={measure === null || value === ""} onClick={add}>
-          Add the goal
-        </Button>
+        <NumberEntry className={classes.grows} size="xs" aria-label="Value of the goal" unit={unit || undefined} value={value} onNumber={setValue} onEmpty={() => setValue("")} />
       </Group>
+      <Button size="xs" variant="default" disabled={measure === null || value === ""} onClick={add}>
+        Add the goal
+      </Button>
     </Listed>
   );
 }

@@ -17,6 +17,7 @@ import { Empty, Failure, Loading } from "../../ui/State";
 import { useSaveKey } from "../../ui/shortcut";
 import { NewApplication } from "./NewApplication";
 import { useSaving } from "./saving";
+import shared from "../../ui/TextEditor.module.css";
 import classes from "./Sources.module.css";
 
 interface Props {
@@ -177,7 +178,7 @@ function Editor({ first, label, readOnly, onText, editor }: EditorProps) {
       view.destroy();
     };
   }, [editor, kept]);
-  return <div ref={place} className={classes.editor} />;
+  return <div ref={place} className={shared.editor} />;
 }
 
 /** What the server finds wrong by reading, shortly after the last key; meanwhile what it found in the text before. */
@@ -205,7 +206,7 @@ function Slips({ slips, asked, checked, error, onGo }: SlipsProps) {
       </p>
     );
   return (
-    <ul className={classes.slips} aria-label="What is wrong in this text">
+    <ul className={shared.problems} aria-label="What is wrong in this text">
       {slips.map(({ line, column, what, remedy }) => (
         <li key={`${line} ${column} ${what}`}>
           <button type="button" className={classes.place} onClick={() => onGo(line, column)}>

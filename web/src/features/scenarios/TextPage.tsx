@@ -27,6 +27,7 @@ import { LeaveQuestion } from "../../ui/LeaveQuestion";
 import { Failure, Loading } from "../../ui/State";
 import { useSaveKey } from "../../ui/shortcut";
 import { goTo, mark, openEditor, replaceAll } from "../../ui/editor";
+import shared from "../../ui/TextEditor.module.css";
 import classes from "./Scenarios.module.css";
 
 export function TextPage({ id }: { id: string }) {
@@ -135,7 +136,7 @@ function Editor({ read, label, onText, editor }: EditorProps) {
       view.destroy();
     };
   }, [editor]);
-  return <div ref={place} className={classes.editor} />;
+  return <div ref={place} className={shared.editor} />;
 }
 
 /** What the server says of the text, shortly after the last key; meanwhile what it said of the text before. */
@@ -166,7 +167,7 @@ function Problems({ problems, checked, error, onGo }: ProblemsProps) {
     );
   }
   return (
-    <ul className={classes.problems} aria-label="Problems of this text">
+    <ul className={shared.problems} aria-label="Problems of this text">
       {problems.map((problem) => (
         <li key={`${problem.where} ${problem.what}`}>
           {problem.line === null ? (
