@@ -60,7 +60,7 @@ class Asked:
     @property
     def text(self) -> str:
         """All of it in a sentence."""
-        return f"{self.unit}: {self.by} asked for {self.acceleration:.2f} m/s²{self.limit}"
+        return f"{self.unit}: {self.by} asked for {round(self.acceleration, 2) + 0.0:.2f} m/s²{self.limit}"  # + 0.0: no -0.00
 
     @property
     def limit(self) -> str:

@@ -164,7 +164,7 @@ def explain(
         print(f"Run {run}: no {event.replace('_', ' ') or 'collision, near miss or hard brake'}.")
     for i, each in enumerate([] if as_json else found):
         number = event if event.isdecimal() else i + 1
-        print(f"{number}. {each.event.time:.2f} s, {' and '.join(each.event.units)}: {each.event.text}")
+        print(f"{number}. {each.event.time:.2f} s, {each.event.vehicle}: {each.event.text}")
         print("".join(f"   {line}\n" for line in each.lines))
 
 

@@ -208,6 +208,14 @@ def test_8_the_last_change_is_taken_back_and_made_again_by_keys(page):
     expect(page.get_by_role("button", name="Make it again")).to_be_disabled()
     page.keyboard.press("Control+z")
     expect(begin).to_have_value(re.compile(r"^0\b(?!\.25)"))
+    begin.fill("0.75")
+    begin.press("Enter")
+    expect(page.get_by_role("button", name="Make it again")).to_be_disabled()
+    begin.fill("0.5")
+    expect(page.get_by_text("Not saved yet")).to_be_visible()
+    back.click()  # the field is left by it, and sends what was typed: that is the last change
+    expect(begin).to_have_value(re.compile(r"^0\.75\b"))
+    expect(page.get_by_text("Not saved.")).to_have_count(0)
 
 
 def test_8_a_parameter_is_chosen_by_its_title_with_its_unit_and_range(page):

@@ -29,6 +29,7 @@ MISTAKES = {
     "bound": ("ge=0.3", "gee=0.3", "number() takes no gee"),
     "arguments": ("Does(accelerate(", "Does(1, accelerate(", "Does(command) is given 2 of 1"),
     "call": ("accelerate(min(max(u, -8.0), 2.0))", "accelerate()", "accelerate(acceleration) is given 0 of 1"),
+    "sort": ('KIND = "application"', 'KIND = "sensor"', "KIND says 'sensor'"),
     "part": ("TITLE =", "TITEL =", "TITLE is missing"),
 }
 

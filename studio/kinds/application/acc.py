@@ -5,6 +5,10 @@
 v_p speed of the car ahead, d measured gap, h headway, r standstill distance. With a drive of time constant tau it is
 string stable only for h >= 2 tau (Rajamani, section 6.6).
 
+An error of the gap dies away in the time 1/lambda, whatever h and whoever brakes ahead: put u in and h v + r - d obeys e' = -lambda e. Who
+starts nearer than h v + r stays too near for so long, and with a longer h starts with the greater error: a run that is to measure the law
+starts at the gap that it keeps.
+
 What is asked of the car may follow u slowly, for comfort and because tracking a target takes time: u_f' = (u - u_f)/T, which is a
 drive that is slower by T.
 """
@@ -29,7 +33,10 @@ class Parameters(BaseModel):
 
     headway: float = Field(1.2, ge=0.2, le=5.0, title="Time headway", description="h", json_schema_extra={"unit": "s"})
     standstill: float = Field(2.0, ge=0.0, le=20.0, title="Standstill distance", description="r", json_schema_extra={"unit": "m"})
-    gap_gain: float = Field(0.1, gt=0.0, le=2.0, title="Gap gain", description="lambda", json_schema_extra={"unit": "1/s"})
+    gap_gain: float = Field(
+        0.1, gt=0.0, le=2.0, title="Gap gain", description="lambda; an error of the gap dies away in 1/lambda",
+        json_schema_extra={"unit": "1/s"},
+    )  # fmt: skip
     cruise_gain: float = Field(
         0.5, gt=0.0, le=3.0, title="Cruise gain", description="on the set speed, road free", json_schema_extra={"unit": "1/s"}
     )

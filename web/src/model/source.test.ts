@@ -1,5 +1,5 @@
 import { beforeEach, describe, expect, it } from "vitest";
-import { applicationNameProblem, beneath, keepText, keptText } from "./source";
+import { applicationNameProblem, beneath, entitled, keepText, keptText } from "./source";
 
 beforeEach(() => localStorage.clear());
 
@@ -32,4 +32,11 @@ it("follows a file only where nothing would be lost", () => {
   expect(beneath("a", "a", "c")).toBe("follow");
   expect(beneath("b", "a", "b")).toBe("saved");
   expect(beneath("b", "a", "c")).toBe("conflict");
+});
+
+describe("a start", () => {
+  it("is called as what begins with it", () => {
+    const text = '"""Mine: keeps a gap."""\nKIND = "application"\nTITLE = "Mine"\n';
+    expect(entitled(text, "late_brake")).toBe('"""Late brake: keeps a gap."""\nKIND = "application"\nTITLE = "Late brake"\n');
+  });
 });

@@ -39,6 +39,12 @@ export function applicationNameProblem(name: string, taken: readonly string[]): 
   return taken.includes(name) ? `There is an application ${name} already.` : "";
 }
 
+/** A start under the name of what begins with it, as the command writes it: two of one title could not be told apart in a list. */
+export function entitled(start: string, name: string): string {
+  const title = (name[0] ?? "").toUpperCase() + name.slice(1).replaceAll("_", " ");
+  return start.replace(/^"""Mine:/, () => `"""${title}:`).replace(/^TITLE = .*$/m, () => `TITLE = "${title}"`);
+}
+
 /** What becomes of a text that is open when the file has another: it follows, is saved already, or both are kept until somebody decides. */
 export function beneath(now: string, base: string, file: string): "same" | "follow" | "saved" | "conflict" {
   if (file === base) return "same";

@@ -24,7 +24,7 @@ export function ExplanationList({ explanations, onSeek }: Props) {
           )}
           <details>
             <summary>
-              <b>{units.map(words).join(" and ")}: </b>
+              {units[0] ? <b>{words(units[0])}: </b> : null}
               {text}
             </summary>
             <ul>

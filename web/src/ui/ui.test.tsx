@@ -64,7 +64,7 @@ describe("why it happened", () => {
         ]}
       />,
     );
-    expect(host.querySelector("summary")?.textContent).toBe("Car 2 and Car 1: comes near car_1: 0.92 s to a collision");
+    expect(host.querySelector("summary")?.textContent).toBe("Car 2: comes near car_1: 0.92 s to a collision");
     expect([...host.querySelectorAll("details li")].map((line) => line.textContent)).toEqual([
       "car 2 knew car 1 by front, 0.10 s old",
       "car 2: platoon had brake",

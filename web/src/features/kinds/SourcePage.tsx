@@ -8,7 +8,7 @@ import { Link, useBlocker } from "@tanstack/react-router";
 import { type RefObject, useCallback, useEffect, useMemo, useRef, useState } from "react";
 import { canWrite, download } from "../../api/disk";
 import { applicationStarts, kinds, type Manuscript, manuscript, textProof, vocabulary } from "../../api/queries";
-import { beneath, keepText, keptText } from "../../model/source";
+import { beneath, entitled, keepText, keptText } from "../../model/source";
 import { goTo, mark, openEditor, replaceAll } from "../../ui/editor";
 import { Icon } from "../../ui/Icon";
 import { LeaveQuestion } from "../../ui/LeaveQuestion";
@@ -38,7 +38,7 @@ export function SourcePage({ name, start }: Props) {
   if (known.data) return <Editing key={known.data.own ? "own" : "built in"} name={name} found={known.data} first={known.data.text} />;
   if (!isNew || !starts.data) return <Loading what="the source" />;
   const begun = starts.data.find((each) => each.name === start);
-  if (begun || keptText(name)) return <Editing key="own" name={name} found={null} first={begun?.text ?? ""} />;
+  if (begun || keptText(name)) return <Editing key="own" name={name} found={null} first={begun ? entitled(begun.text, name) : ""} />;
   return (
     <Empty icon="text" title={`There is no application ${name}`}>
       It may lie in a folder that the studio was not started with. Those that are there stand under Kinds, where a new one is begun too.

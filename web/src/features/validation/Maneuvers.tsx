@@ -2,7 +2,7 @@
 
 import { ActionIcon, Button, Text, Tooltip, VisuallyHidden } from "@mantine/core";
 import { useQuery } from "@tanstack/react-query";
-import { useRef, useState } from "react";
+import { useEffect, useRef, useState } from "react";
 import { Refusal } from "../../api/client";
 import { usePatch, validationKinds } from "../../api/validations";
 import { words } from "../../model/units";
@@ -25,13 +25,19 @@ const MOST_KEPT = 100;
 interface Steps {
   done: readonly Done[];
   undone: readonly Done[];
+  /** How many changes are on their way to the server. */
+  sent: number;
+  /** What is to be turned round as soon as nothing is on its way: the field that one leaves by pressing the button is sent first. */
+  wish?: "done" | "undone" | undefined;
 }
 
+const NOTHING: Steps = { done: [], undone: [], sent: 0 };
+
 /** The latest of one list went to the other: the answer to its inverse is what turns it round once more. */
-const moved = (steps: Steps, from: keyof Steps, to: keyof Steps, made: Done): Steps => ({
-  ...steps,
-  [from]: steps[from].slice(0, -1),
-  [to]: [...steps[to], made],
+const moved = (steps: Steps, from: "done" | "undone", made: Done): Steps => ({
+  done: from === "done" ? steps.done.slice(0, -1) : [...steps.done, made],
+  undone: from === "undone" ? steps.undone.slice(0, -1) : [...steps.undone, made],
+  sent: steps.sent - 1,
 });
 
 interface Props {
@@ -43,30 +49,45 @@ interface Props {
 export function Maneuvers({ project, said, onLog }: Props) {
   const kinds = useQuery(validationKinds).data?.maneuvers ?? [];
   const patch = usePatch(project.name, project.digest);
-  const [{ done, undone }, setSteps] = useState<Steps>({ done: [], undone: [] });
+  const [{ done, undone, sent, wish }, setSteps] = useState(NOTHING);
+  const send = (operations: Parameters<typeof patch.mutate>[0], then: (before: Steps, made: Done) => Steps) => {
+    setSteps((before) => ({ ...before, sent: before.sent + 1, wish: undefined }));
+    return patch.mutateAsync(operations).then(
+      (made) => setSteps((before) => then(before, made)),
+      (error: Error) => {
+        setSteps((before) => ({ ...before, sent: before.sent - 1, wish: undefined }));
+        throw error;
+      },
+    );
+  };
   const change = (operations: Parameters<typeof patch.mutate>[0]) =>
-    patch.mutateAsync(operations).then((made) => setSteps((before) => ({ done: [...before.done, made].slice(-MOST_KEPT), undone: [] })));
+    send(operations, (before, made) => ({
+      ...before,
+      done: [...before.done, made].slice(-MOST_KEPT),
+      undone: [],
+      sent: before.sent - 1,
+    }));
   // What was changed elsewhere since then is neither undone nor made again by what was meant for the text before.
   const [last, next] = [done, undone].map((each) => (each.at(-1)?.digest === project.digest ? each.at(-1) : undefined));
-  const takeBack = () => {
-    if (!last || patch.isPending) return;
-    patch.mutateAsync(last.inverse).then((made) => setSteps((before) => moved(before, "done", "undone", made)), notifyError);
-  };
-  const makeAgain = () => {
-    if (!next || patch.isPending) return;
-    patch.mutateAsync(next.inverse).then((made) => setSteps((before) => moved(before, "undone", "done", made)), notifyError);
-  };
+  const turned = wish === "done" ? last : wish === "undone" ? next : undefined;
+  useEffect(() => {
+    if (wish && turned && sent === 0) void send(turned.inverse, (before, made) => moved(before, wish, made)).catch(notifyError);
+  });
+  const want = (which: "done" | "undone", is: Done | undefined) =>
+    setSteps((before) => ({ ...before, wish: before.sent > 0 || is ? which : undefined }));
+  const takeBack = () => want("done", last);
+  const makeAgain = () => want("undone", next);
   useUndoKeys(takeBack, makeAgain);
   const back =
-    last || next ? (
+    last || next || sent ? (
       <div className={classes.row}>
         <Tooltip label="Ctrl+Z">
-          <Button size="xs" variant="default" loading={patch.isPending} disabled={!last} onClick={takeBack}>
+          <Button size="xs" variant="default" disabled={!last && sent === 0} onClick={takeBack}>
             Take back the last change
           </Button>
         </Tooltip>
         <Tooltip label="Ctrl+Y">
-          <Button size="xs" variant="default" loading={patch.isPending} disabled={!next} onClick={makeAgain}>
+          <Button size="xs" variant="default" disabled={!next && sent === 0} onClick={makeAgain}>
             Make it again
           </Button>
         </Tooltip>
@@ -158,6 +179,7 @@ export function RunRow({ set: taken, run, onLog, onRun, onRemove }: RowProps) {
     setTimes((typed.current = next));
   };
   const { begin, end } = { ...run, ...times };
+  const isTyped = (begin !== run.begin || end !== run.end) && !refused;
   const send = () => {
     const now = typed.current;
     const next = { ...run, ...now };
@@ -202,6 +224,11 @@ export function RunRow({ set: taken, run, onLog, onRun, onRemove }: RowProps) {
           onNumber={(next) => set({ ...typed.current, end: next })}
           onEmpty={() => set({ ...typed.current, end: null })}
         />
+        {isTyped ? (
+          <Text size="xs" c="dimmed">
+            Not saved yet: press Enter, or leave the row.
+          </Text>
+        ) : null}
         {refused ? (
           <div role="alert">
             <Text size="xs" c="red">
