@@ -58,7 +58,9 @@ from studio.vehicle.state import (
 )  # fmt: skip
 
 USES_POWERTRAIN = ("throttle", "engine_torque_request_Nm", "gear")
-HELD = 15.0  # [1/s] of the difference of speed that is made up: 0.3 m/s² of resistance cost 0.02 m/s
+# [1/s] of the difference of speed that is made up, and of its integral, so that no resistance, bend or ramp leaves any. The speed of a
+# mass answers with s² + HELD s + HELD KEPT = 0: both poles at HELD/2, which comes back without a swing.
+HELD, KEPT = 15.0, 15.0 / 4.0
 
 BODY_COLUMNS = {
     "x_m": X, "y_m": Y, "z_m": Z, "yaw_rad": PSI, "roll_rad": ROLL, "pitch_rad": PITCH, "vx_mps": V_X, "vy_mps": V_Y,
@@ -113,11 +115,13 @@ def plane(road: Mapping[str, float]) -> np.ndarray:
 
 @dataclass(frozen=True)
 class Feed:
-    """One input: the columns of the vehicles that have it, and what it is at every step, [step, vehicle]."""
+    """One input: the columns of the vehicles that have it, what it is at every step [step, vehicle], and, of a speed, the distance [m] that
+    each is behind by now."""
 
     name: str
     vehicles: np.ndarray
     values: np.ndarray
+    behind: np.ndarray
 
 
 def take_delays(rig: Fleet) -> dict[str, np.ndarray]:
@@ -135,7 +139,7 @@ def feeds(rig: Fleet, orders: Sequence[Order], steps: int, step: float) -> list[
         vehicles = np.array([v for v, each in enumerate(orders) if name in each.inputs])
         late = delays.get(name, none)
         values = [scaled(rig, name, v, values_at(orders[v].inputs, name, time - late[v])) for v in vehicles.tolist()]
-        found.append(Feed(name, vehicles, np.array(values).T.copy()))
+        found.append(Feed(name, vehicles, np.array(values).T.copy(), np.zeros(vehicles.size)))
     return found
 
 
@@ -153,23 +157,24 @@ def scaled(rig: Fleet, name: str, v: int, values: np.ndarray) -> np.ndarray:
     return values * rig.parameter[BRAKE_MAX, v] if name == "brake" else values
 
 
-def command(rig: Fleet, given: Sequence[Feed], k: int) -> None:
-    """Writes the inputs that reach the actuators in step k into their slots of the ring."""
+def command(rig: Fleet, given: Sequence[Feed], k: int, step: float) -> None:
+    """Writes the inputs that reach the actuators in step k, which takes `step` [s], into their slots of the ring."""
     slot = (k % RING) * rig.size
     for each in given:
         if each.name == "speed_mps":
-            rig.commands[U_APPLIED, slot + each.vehicles] = holding(rig, each, k)
+            rig.commands[U_APPLIED, slot + each.vehicles] = holding(rig, each, k, step)
             continue
         rig.commands[ROWS[each.name], slot + each.vehicles] = each.values[k]
         if each.name == "road_wheel_angle_rad":
             rig.state[DELTA, each.vehicles] = each.values[k]
 
 
-def holding(rig: Fleet, speed: Feed, k: int) -> np.ndarray:
+def holding(rig: Fleet, speed: Feed, k: int, step: float) -> np.ndarray:
     """Torques at the wheels [Nm] that hold a speed; none where nobody holds it, which is said by not a number."""
-    v, wanted = speed.vehicles, speed.values[k]
-    torque = rig.parameter[MASS, v] * rig.parameter[RADIUS, v] * HELD * (wanted - rig.state[V_X, v])
-    return np.where(np.isfinite(wanted), torque, 0.0)
+    v, is_held = speed.vehicles, np.isfinite(speed.values[k])
+    slower = np.where(is_held, speed.values[k] - rig.state[V_X, v], 0.0)
+    speed.behind[:] = np.where(is_held, speed.behind + slower * step, 0.0)
+    return rig.parameter[MASS, v] * rig.parameter[RADIUS, v] * HELD * (slower + KEPT * speed.behind)
 
 
 # --- the drive -----------------------------------------------------------------------------------------------------------
@@ -193,7 +198,7 @@ def together(
     given = feeds(rig, orders, max(lasts), step)
     rows, broke = [sample(rig, 0.0)], {}
     for k in range(max(lasts)):
-        command(rig, given, k)
+        command(rig, given, k, step)
         fleet.advance(rig, k, step, step)
         note_broken(rig, broke, k, step)
         if (k + 1) % every == 0:

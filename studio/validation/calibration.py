@@ -36,7 +36,7 @@ LOST = 1e3  # what a car that was lost counts for, in noise
 
 @dataclass(frozen=True)
 class Estimate:
-    """A parameter: where it began, what was found, how uncertain, how much the runs feel it, and what was allowed."""
+    """A parameter: what the vehicle had, what was found, how uncertain, how much the runs feel it, and what was allowed."""
 
     path: str
     unit: str
@@ -164,7 +164,7 @@ def left(each: Series, made: dict[str, np.ndarray] | None) -> np.ndarray:
 def calibrate(loaded: Loaded, step: str, progress: Callable[[float], None] = lambda share: None) -> Calibrated:
     """Finds the parameters of a step; raises ScenarioError when there is nothing to calibrate with, or when it does not converge."""
     fit = problem(loaded, step, progress)
-    start = first(fit)
+    start = np.clip(had(fit), 0.01, 0.99)
     found = least_squares(
         lambda share: fit.at(share)[0], start, jac=lambda share: fit.at(share)[1], bounds=(0.0, 1.0), loss="soft_l1", f_scale=3.0,
         x_scale="jac", xtol=1e-5, ftol=1e-7, max_nfev=MOST,
@@ -176,7 +176,7 @@ def calibrate(loaded: Loaded, step: str, progress: Callable[[float], None] = lam
             "The calibration does not converge; nothing was kept.",
             [Problem("calibration.parameters", what, ", ".join(fit.paths), remedy=remedy)],
         )
-    return described(fit, start, np.clip(found.x, 0.0, 1.0))
+    return described(fit, np.clip(found.x, 0.0, 1.0))
 
 
 def problem(loaded: Loaded, step: str, told: Callable[[float], None]) -> Fit:
@@ -211,18 +211,18 @@ def series(i: int, name: str, run: Recording) -> Series:
     return Series(i, name, values, max(float(spread), QUIET * float(np.nanmax(values) - np.nanmin(values)), 1e-6))
 
 
-def first(fit: Fit) -> np.ndarray:
-    """Where it begins: the vehicle as it is, or the next value that is allowed."""
+def had(fit: Fit) -> np.ndarray:
+    """What the vehicle has before; beyond 0 to 1 where that is not allowed. It begins there, or at the nearest that is."""
     full = fit.loaded.model.values.model_dump()
-    given = np.array([edit.get(full, path) for path in fit.paths])
-    return np.clip((given - fit.low) / fit.width, 0.01, 0.99)
+    return (np.array([edit.get(full, path) for path in fit.paths]) - fit.low) / fit.width
 
 
 # -- what is told ----------------------------------------------------------------------------------------
 
 
-def described(fit: Fit, start: np.ndarray, share: np.ndarray) -> Calibrated:
+def described(fit: Fit, share: np.ndarray) -> Calibrated:
     """The parameters that were found with all that is known of them."""
+    start = had(fit)
     samples = sum(each.values.size for each in fit.series)
     whole = fit.at(share)[1]
     J, prior = whole[:samples], whole[samples:]
@@ -287,6 +287,11 @@ def warnings(estimates: Sequence[Estimate], correlations: np.ndarray, informatio
     ]
     for i, each in enumerate(estimates):
         width = each.high - each.low
+        if not each.low <= each.start <= each.high:
+            found.append(
+                f"{each.path} of the vehicle is {each.start:.6g} {each.unit}, outside of what is allowed, {each.low:.6g} to "
+                f"{each.high:.6g}: what was found may be worse than what it has"
+            )
         if information[i, i] < 1e-12 or each.spread > VAGUE * width:
             found.append(f"{each.path} is hardly felt here, its spread is {each.spread:.3g} {each.unit}: leave it out, or add a maneuver")
         elif min(each.value - each.low, each.high - each.value) < NEAR * width:

@@ -10,7 +10,7 @@ from studio.errors import ScenarioError
 from studio.scenario import catalogue
 from studio.store import iteration
 from studio.store.runs import open_runs
-from studio.validation import calibration, iterate, judge
+from studio.validation import calibration, iterate, judge, sample
 from studio.validation.project import load
 from tests.validation.truth import CAR, TRUE, Ground, Instrument, j_turns, lane_changes, stops
 
@@ -59,6 +59,27 @@ def test_calibration_finds_what_was_changed(project):
         assert each.spread < 0.03 * each.value, each
     assert found.warnings == []
     assert all(after < 0.5 * before for before, after in found.misfit.values())
+
+
+def test_the_sample_to_learn_with_has_its_truth_within_what_is_told(tmp_path):
+    """A speed that was held less closely in the replay than on the drive once bent it by four standard deviations."""
+    sample.write(tmp_path)
+    (found,) = calibration.calibrate(load(tmp_path / "project.yaml"), "lateral").estimates
+    assert abs(found.value - sample.TRUTH) < 2.0 * found.spread < 0.002
+
+
+def test_a_range_without_what_the_car_has_is_told(ground):
+    """What it had, and how well that followed, are the car's own, wherever the search began."""
+    path, value = "tyres.front_cornering", catalogue.find_vehicle(CAR).values.tyres.front_cornering
+    wide, narrow = (
+        calibration.calibrate(load(ground.project(calibration={"lateral": {"parameters": {path: allowed}}})), "lateral")
+        for allowed in ({"low": 0.5, "high": 1.6}, {"low": value + 0.1, "high": value + 0.3})
+    )
+    assert narrow.estimates[0].start == pytest.approx(value) == wide.estimates[0].start
+    assert {name: before for name, (before, _) in narrow.misfit.items()} == pytest.approx(
+        {name: before for name, (before, _) in wide.misfit.items()}
+    )
+    assert [path in each and "outside of what is allowed" in each for each in narrow.warnings].count(True) == 1
 
 
 @pytest.mark.parametrize(

@@ -52,8 +52,8 @@ export function Calibrations({ project, said, at, busy, onStart }: Props) {
                   <th scope="row" title={parameterOf(project, path)?.title}>
                     {path}
                   </th>
-                  <td>{formatNumber(low)}</td>
-                  <td>{formatNumber(high)}</td>
+                  <td>{String(low)}</td>
+                  <td>{String(high)}</td>
                   <td>{prior === null ? "–" : `${formatNumber(prior)} ± ${formatNumber(spread ?? 0)}`}</td>
                   <td>{unitText(parameterOf(project, path)?.unit ?? "") || "–"}</td>
                   <td>
@@ -135,6 +135,11 @@ function NewParameter({ project, said }: { project: Project; said: Said }) {
           {chosen.low !== null ? "; the range is what the vehicle's file gives." : "; the vehicle's file gives no range."}
         </Text>
       ) : null}
+      {chosen && low !== "" && high !== "" && low < high && (chosen.value < low || chosen.value > high) ? (
+        <Text size="xs" c="orange" role="status">
+          What the vehicle has lies outside of this range: the best that is allowed may be worse.
+        </Text>
+      ) : null}
       {low !== "" && high !== "" && low >= high ? (
         <Text size="xs" c="red" role="alert">
           The lowest value must be less than the highest.
@@ -197,7 +202,7 @@ function Found({ number, step }: { number: number; step: string }) {
               <td>{(2 * each.spread).toPrecision(2)}</td>
               <td>{unitText(each.unit) || "–"}</td>
               <td>
-                {formatNumber(each.low)} to {formatNumber(each.high)}
+                {String(each.low)} to {String(each.high)}
               </td>
             </tr>
           ))}
