@@ -16,6 +16,9 @@ export function notifyError(error: Error & { problems?: Problem[] }): void {
   });
 }
 
+/** [ms] How long a notice stays that has something to press in it: time to read it and to get there, on a slow machine too. */
+export const PRESSED = 30_000;
+
 interface How {
   /** By which it can be closed. */
   id?: string;

@@ -7,7 +7,7 @@ import { type Retag, useJudgeMany, useRetag } from "../../api/queries";
 import type { ListedRun } from "../../model/run";
 import { apart, LONGEST, tagsOf, type Word, WORDS } from "../../model/verdict";
 import { Icon } from "../../ui/Icon";
-import { notify, notifyError } from "../../ui/notify";
+import { notify, notifyError, PRESSED } from "../../ui/notify";
 import classes from "./Runs.module.css";
 
 interface Props {
@@ -164,5 +164,5 @@ function told(title: string, undo: () => Promise<void>) {
       Undo
     </Button>
   );
-  notify(title, button, "teal", { id, autoClose: 20000 });
+  notify(title, button, "teal", { id, autoClose: PRESSED });
 }

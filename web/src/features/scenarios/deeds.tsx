@@ -6,7 +6,7 @@ import { isStale, isTaken, useCopy, useDeleteScenario, useRename, useRestore } f
 import { type Deleted, freeName, plainName, type ScenarioRow } from "../../model/scenario";
 import { moveMemory } from "../../ui/memory";
 import { NameDialog, type Naming } from "../../ui/NameDialog";
-import { closeNotice, notify, notifyError } from "../../ui/notify";
+import { closeNotice, notify, notifyError, PRESSED } from "../../ui/notify";
 import type { useImports } from "./imports";
 import type { Deed } from "./RowMenu";
 
@@ -95,7 +95,7 @@ function useUndo(restore: (entry: Deleted) => void) {
         Undo
       </Button>,
       "gray",
-      { id: entry.id, autoClose: 15_000 },
+      { id: entry.id, autoClose: PRESSED },
     );
   };
 }

@@ -11,7 +11,7 @@ import type { Changes, Problem, Server } from "../../model/run";
 import { freeName } from "../../model/scenario";
 import { draftKey } from "../../ui/memory";
 import { NameDialog, type Naming } from "../../ui/NameDialog";
-import { closeNotice, notify, notifyError } from "../../ui/notify";
+import { closeNotice, notify, notifyError, PRESSED } from "../../ui/notify";
 import { useSaveKey } from "../../ui/shortcut";
 import type { Draft } from "./draft";
 import type { Form } from "./form";
@@ -84,7 +84,7 @@ export function useSaving({ id, form, draft, update }: Props) {
         Undo
       </Button>,
       "teal",
-      { id: done.digest, autoClose: 12_000 },
+      { id: done.digest, autoClose: PRESSED },
     );
   };
   const save = async () => {

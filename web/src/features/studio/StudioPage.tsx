@@ -9,7 +9,7 @@ import { useZoom } from "../../charts/zoom";
 import { exchanged, fromSet, sameChanges, withChange } from "../../model/form";
 import { isLive, type RunDetail } from "../../model/run";
 import { Icon } from "../../ui/Icon";
-import { notify } from "../../ui/notify";
+import { notify, PRESSED } from "../../ui/notify";
 import { Failure, Loading } from "../../ui/State";
 import { useShortcuts } from "../../ui/shortcut";
 import { useControl, useTakeOver } from "./control";
@@ -157,7 +157,7 @@ function useViewLink(id: string, { run, ghosts, align }: Pick<Props, "run" | "gh
       const copied = navigator.clipboard?.writeText(address) ?? Promise.reject(new Error("no clipboard"));
       copied.then(
         () => notify("The link is copied", "Who opens it sees this run at this time, from where you look at it."),
-        () => notify("This is the link", <Anchor href={address}>{address}</Anchor>, "teal", { autoClose: 30000 }),
+        () => notify("This is the link", <Anchor href={address}>{address}</Anchor>, "teal", { autoClose: PRESSED }),
       );
     },
     [router, id, run, ghosts, align, head],
