@@ -18,6 +18,9 @@ SPEED_TIME = 0.1  # [s] in which idle control and governor remove a difference o
 MATCH_TIME = 0.25  # [s] in which the engine is brought up for a lower gear; its lag must not carry it beyond
 TAPER = 0.03  # [1] of the limit speed, over which full load fades at the rev limit
 SLOW = 10.0  # [rad/s] below this drag and regeneration fade out
+# [1] slip of the driven wheels up to which a motor takes back all, and from which on nothing; estimated: 2.2 m/s² by one axle on a dry road
+# take 0.025, and on snow (0.3) tyres of the catalogue have their peak at 0.04
+GRIPS, SLIDES = 0.025, 0.05
 
 
 @inlined
@@ -37,6 +40,16 @@ def full_load(w, T_curve, T_drag, w_limit):
 def lowest(w, T_drag, T_regeneration):
     """Least torque [Nm] on request: drag and regeneration; backwards nothing is regenerated."""
     return T_drag - T_regeneration * min(max(w * (1.0 / SLOW), 0.0), 1.0)
+
+
+@inlined
+def taken_back(slip):
+    """Share of the regeneration [1] that driven wheels with this slip [1], negative when they brake, are left with.
+
+    A motor brakes one axle only. On a slippery road that axle would lock long before the car brakes as hard as all four wheels can, so the
+    motor's own control gives way as its wheels begin to slide, within a step; the brakes, which are on all wheels, do the rest.
+    """
+    return min(max((SLIDES + slip) * (1.0 / (SLIDES - GRIPS)), 0.0), 1.0)
 
 
 @inlined

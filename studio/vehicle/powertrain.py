@@ -60,6 +60,7 @@ from studio.vehicle.state import (
     F_X,
     F_Y,
     J_GEAR,
+    KAPPA,
     M_Z,
     NEXT_RATIO,
     OMEGA,
@@ -144,7 +145,7 @@ def request(v, w_in, i, T_ratio, T_drag, T_curve, parameter, command):
 
 
 @inlined
-def engine_step(v, w_out, T_p, T_t, T_cap, state, parameter, command, dt):
+def engine_step(v, w_out, slip, T_p, T_t, T_cap, state, parameter, command, dt):
     """The engine's torque moves towards the request, bounded by what the engine can and the coupling should."""
     w, i = state[OMEGA_E, v], state[RATIO, v]
     T_drag = engine.drag(w, parameter[DRAG, v], parameter[DRAG_SLOPE, v])
@@ -162,7 +163,7 @@ def engine_step(v, w_out, T_p, T_t, T_cap, state, parameter, command, dt):
     hands_over = parameter[COUPLING, v] == CONVERTER and w_next > abs(i * w_out)
     T = engine.matched(T, w, parameter[FLUID_RATIO, v] * w_next, parameter[J_E, v]) if hands_over else T
     T = engine.idled(T, w, parameter[IDLE, v], parameter[J_E, v])
-    T_low = engine.lowest(w, T_drag, parameter[REGEN, v])
+    T_low = engine.lowest(w, T_drag, parameter[REGEN, v] * engine.taken_back(slip))
     state[ACCELERATOR, v] = pedal
     state[T_ENGINE, v] = engine.torque(state[T_ENGINE, v], T, T_low, T_full, parameter[TAU_DRIVE, v], dt)
 
@@ -204,17 +205,17 @@ def ratio_step(v, state, dt):
 
 
 @inlined
-def powertrain_step(v, w_out, w_free, mobility, state, parameter, command, dt):
+def powertrain_step(v, w_out, slip, w_free, mobility, state, parameter, command, dt):
     """Engine, coupling and gearbox; returns the drive torque [Nm], sum of the wheels.
 
-    w_out [rad/s] mean speed of the driven wheels, w_free what it would be without drive, mobility its change per torque
-    and time [1/(kg m²)].
+    w_out [rad/s] mean speed of the driven wheels, slip [1] their mean slip, w_free what the speed would be without drive, mobility
+    its change per torque and time [1/(kg m²)].
     """
     i, J_g, J_e, w_e = ratio_step(v, state, dt), state[J_GEAR, v], parameter[J_E, v], state[OMEGA_E, v]
     w_in, B = i * w_out, i * i * mobility
     torques = converter_torques(v, w_in, state, parameter)
     T_cap = clutch_capacity(v, state, parameter)
-    engine_step(v, w_out, torques[0], torques[1], T_cap, state, parameter, command, dt)
+    engine_step(v, w_out, slip, torques[0], torques[1], T_cap, state, parameter, command, dt)
     eta = transmission.efficiency(state[T_ENGINE, v], parameter[LOSS_SHARE, v])
     T_loss = transmission.constant_loss(w_in, parameter[LOSS_TORQUE, v])
     free = transmission.input_free(i * w_free, B, w_in, 0.0, J_g, dt)
@@ -273,8 +274,9 @@ def drive_step(v, T_front, T_rear, state, wheels, contact, parameter, command, d
     o_4, m_4 = wheel_free(3, v, s_r * T, T_rear, wheels, contact, parameter, dt)
     mobility = s_f * s_f * (m_1 + m_2) + s_r * s_r * (m_3 + m_4)
     w_out = s_f * (wheels[OMEGA, v] + wheels[OMEGA, LANES + v]) + s_r * (wheels[OMEGA, 2 * LANES + v] + wheels[OMEGA, 3 * LANES + v])
+    slip = s_f * (wheels[KAPPA, v] + wheels[KAPPA, LANES + v]) + s_r * (wheels[KAPPA, 2 * LANES + v] + wheels[KAPPA, 3 * LANES + v])
     w_free = s_f * (o_1 + o_2) + s_r * (o_3 + o_4)
-    T = powertrain_step(v, w_out, w_free, mobility, state, parameter, command, dt)
+    T = powertrain_step(v, w_out, slip, w_free, mobility, state, parameter, command, dt)
     T += command[U_APPLIED, v]
     state[TORQUE_DRIVE, v] = T
     front = wheel_turn(0, v, s_f * T, T_front, wheels, contact, parameter, dt)

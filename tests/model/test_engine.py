@@ -31,6 +31,13 @@ def test_regeneration_brakes_a_turning_motor_only():
     assert engine.lowest(0.0, 0.0, 100.0) == 0.0
 
 
+def test_a_motor_gives_way_as_its_wheels_slide():
+    """All of it up to GRIPS, half in the middle, nothing from SLIDES on; wheels that are driven, or roll, take nothing away."""
+    middle = 0.5 * (engine.GRIPS + engine.SLIDES)
+    assert [engine.taken_back(slip) for slip in (0.2, 0.0, -0.99 * engine.GRIPS, -engine.SLIDES, -1.0)] == [1.0, 1.0, 1.0, 0.0, 0.0]
+    assert engine.taken_back(-middle) == pytest.approx(0.5)
+
+
 def test_the_pedal_goes_from_drag_to_full_load_and_most_at_first():
     torques = [engine.by_pedal(u, T_DRAG, T_CURVE) for u in (0.0, 0.25, 0.5, 0.75, 1.0)]
     steps = [b - a for a, b in itertools.pairwise(torques)]

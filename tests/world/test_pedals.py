@@ -3,12 +3,14 @@
 import numpy as np
 import pytest
 
+from studio.conventions import GRAVITY
+from studio.model import tyre
 from studio.road.drawn.motorway import motorway
 from studio.road.network.signals import AMBER, GREEN
 from studio.scenario import file
 from studio.scenario.setup import complete
-from studio.vehicle.parameter import FRONT
-from studio.vehicle.state import A_X, GEAR, TORQUE_BRAKE, V_X
+from studio.vehicle.parameter import BRAKE_MAX, BRAKE_SHARE, FRONT, L_F, L_R, MASS, RADIUS, REGEN, STATIC_F, STATIC_R, H
+from studio.vehicle.state import A_X, GEAR, OMEGA, TORQUE_BRAKE, V_X
 from studio.world.build import build
 from studio.world.passes.control import APP_ACCELERATION
 from studio.world.setting import setting
@@ -24,16 +26,17 @@ def alone(tmp_path):
     """A world of one car each, of these models at a speed [m/s], on a straight road."""
     (tmp_path / "motorway.xodr").write_text(motorway(length=3000.0, lanes=1), encoding="utf-8")
 
-    def made(models, speed):
-        return build([setting(complete(document(model, speed), "pedals"), tmp_path, "pedals") for model in models])
+    def made(models, speed, friction=1.0):
+        return build([setting(complete(document(model, speed, friction), "pedals"), tmp_path, "pedals") for model in models])
 
     return made
 
 
-def document(model, speed):
+def document(model, speed, friction):
     return {
         "title": "pedals", "map": {"file": "motorway.xodr"}, "routes": {"way": {"roads": ["motorway"]}},
         "vehicles": {"car": {"model": model, "route": "way", "position": {"along": 50}, "speed": speed}},
+        "weather": {"friction": friction},
     }  # fmt: skip
 
 
@@ -82,6 +85,45 @@ def test_a_motor_that_takes_back_leaves_the_brakes_alone(alone):
     brake, a = asked(world, lambda time, speed: wanted, 2.5, [TORQUE_BRAKE, A_X])
     assert brake[:, :3].max() == 0.0 and brake[-1, 3] > 500.0
     assert (a.min(axis=0) > 1.05 * wanted).all()
+
+
+def hardest(world, friction):
+    """Deceleration [m/s²] at which the first axle comes to the peak of its tyres, by the loads at rest, or the brakes to theirs.
+
+    An axle with the share xi of the brakes and the load m (g b + a h)/L, b from the centre of gravity to the other axle, holds
+    xi a = mu (g b + a h)/L, so a = mu g b/(xi L - mu h); of the rear axle h counts the other way. A motor on the axle that would come
+    second fills that axle up, so both come to it together, at mu g.
+    """
+    p, v = world.vehicles.parameter, world.vehicles
+    L, loads = p[L_F] + p[L_R], (p[STATIC_F], p[STATIC_R])
+    mu = np.array([
+        [tyre.longitudinal_peak(tyre.Tyre(*v.tyres[t]), F, friction) / F for t, F in zip(of, load, strict=True)]
+        for of, load in zip(v.tyres_of, loads, strict=True)
+    ])  # fmt: skip
+    front = mu[0] * GRAVITY * p[L_R] / (p[BRAKE_SHARE] * L - mu[0] * p[H])
+    rear = mu[1] * GRAVITY * p[L_F] / ((1.0 - p[BRAKE_SHARE]) * L + mu[1] * p[H])
+    tyres = np.where(p[REGEN] > 0.0, mu.min(axis=0) * GRAVITY, np.minimum(front, rear))
+    return np.minimum(tyres, p[BRAKE_MAX] / (p[MASS] * p[RADIUS]))
+
+
+@pytest.mark.parametrize("friction", [0.2, 0.3, 0.6, 1.0])
+def test_on_any_road_comes_what_is_asked(alone, friction):
+    """Up to 0.85 of the hardest that brings no tyre beyond its peak, within 3 % after a second, and no wheel slides.
+
+    An electric car, whose motor answers quicker than brakes and whose brakes fill up what its driven wheels do not hold, within 2 % after
+    half a second.
+    """
+    shares = np.repeat([0.3, 0.6, 0.85], len(MODELS))
+    world = alone(MODELS * 3, 20.0, friction)
+    wanted = -shares * hardest(world, friction)
+    asked(world, lambda time, speed: 0.0 * speed, 3.0, [V_X])
+    (v,) = asked(world, lambda time, speed: wanted, 1.5, [V_X])
+    early, late = (v[50] - v[25]) / (25 * TICK), (v[-1] - v[50]) / (24 * TICK)
+    is_electric = world.vehicles.parameter[REGEN] > 0.0
+    assert late == pytest.approx(wanted, rel=0.03)
+    assert is_electric.any() and early[is_electric] == pytest.approx(wanted[is_electric], rel=0.02)
+    turning = world.vehicles.wheels[OMEGA].reshape(4, -1) * world.vehicles.parameter[RADIUS]
+    assert (turning > 0.85 * v[-1]).all()
 
 
 # -- gears -----------------------------------------------------------------------------------------------

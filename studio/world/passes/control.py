@@ -4,7 +4,8 @@ Order of precedence on pedals and wheel: a scripted maneuver, then the applicati
 command stays the driver's. He overrules it only where the scenario says so (intervention.py).
 
 An acceleration is turned into torques by inverting the resistances: F = m_eff u + F_air + F_roll + m g sin(slope). The
-engine gets F R as a request at the wheels, negative ones too; the brake gets what the powertrain cannot do.
+engine gets F R as a request at the wheels, negative ones too; the brake gets what the powertrain cannot do: what a motor takes back is
+bounded by what it can, and by what the wheels that it brakes hold (studio/model/engine.py).
 """
 
 from math import cos, isnan, nan, sin
@@ -14,6 +15,7 @@ from studio.compiled import inlined, lean
 from studio.conventions import GRAVITY
 from studio.model import actuator, aerodynamics, engine, transmission
 from studio.model.driver import NO_LIMIT
+from studio.model.gearbox import WALKING
 from studio.vehicle.command import RING, U_BRAKE, U_DRIVE, U_ENGINE, U_GEAR, U_PEDAL, U_STEER, U_STEER_TORQUE, U
 from studio.vehicle.contact import SLOPE_X, SLOPE_Y
 from studio.vehicle.parameter import (
@@ -117,10 +119,18 @@ def wheel_torque(v, u, state, ground, parameter):
 
 
 @inlined
+def driven_slip(v, state, parameter):
+    """Slip [1] of the driven wheels, by the engine's speed, which is theirs while clutch and gear join them."""
+    turning = parameter[RADIUS, v] * state[OMEGA_E, v] / state[RATIO, v]
+    return (turning - state[V_X, v]) / max(state[V_X, v], WALKING)
+
+
+@inlined
 def least_joined(v, state, parameter):
     """Torque [Nm] at the wheels with the pedal lifted, or with all that a motor takes back, but for what turns with the engine."""
     w = state[OMEGA_E, v]
-    T = engine.lowest(w, engine.drag(w, parameter[DRAG, v], parameter[DRAG_SLOPE, v]), parameter[REGEN, v])
+    taken_back = parameter[REGEN, v] * engine.taken_back(driven_slip(v, state, parameter))
+    T = engine.lowest(w, engine.drag(w, parameter[DRAG, v], parameter[DRAG_SLOPE, v]), taken_back)
     carried = transmission.efficiency(T, parameter[LOSS_SHARE, v]) * T - transmission.constant_loss(w, parameter[LOSS_TORQUE, v])
     return carried * state[RATIO, v]
 
