@@ -37,9 +37,10 @@ def settings(preset: str = "", **changes: Any) -> Any:
 
 def table(settings: Any) -> np.ndarray:
     """What the radio works out of settings as compiled code gets them."""
-    rate = wlan.Settings.model_json_schema()["properties"]["rate"]["enum"][int(settings.rate)]
-    same = ("frequency", "m_near", "m_far", "delay", "delay_rest", "delay_longest")
-    return wlan.table(wlan.Settings(rate=rate, **{name: getattr(settings, name) for name in same}))
+    known = wlan.Settings.model_json_schema()["properties"]
+    named = {name: known[name]["enum"][int(getattr(settings, name))] for name in ("rate", "path_loss")}
+    same = ("frequency", "transmit_power", "noise", "exponent", "m_near", "m_far", "delay", "delay_rest", "delay_longest")
+    return wlan.table(wlan.Settings(**named).model_copy(update={name: getattr(settings, name) for name in same}))
 
 
 def heard(settings: Any, distance: float, journey: Journey, pairs: int = PAIRS, messages: int = MESSAGES) -> tuple[np.ndarray, np.ndarray]:

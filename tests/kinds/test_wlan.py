@@ -27,6 +27,29 @@ CALM: dict = {"path_loss": "free_space", "shadowing": 0.0, "fading": False, "con
 STILL = Journey(0.0, 0.1)
 
 
+# -- what is told without a logarithm -----------------------------------------------------------------
+
+
+@pytest.mark.parametrize("changes", [{"exponent": 2.5}, {"exponent": 1.0, "noise": -50.0}, {"path_loss": "free_space"}, {"exponent": 8.0}])
+def test_the_quick_loss_is_never_above_the_loss_and_close_to_it_where_it_matters(changes):
+    """From 1 m to 10 km; within 0.3 dB per exponent up to twice the distance from which on it is told, where x = 2 lacks 0.026 of ln x."""
+    chosen = settings(**({"path_loss": "one_slope"} | changes))
+    known = table(chosen)
+    doubtful, exponent = known[wlan.DOUBTFUL], known[wlan.EXPONENT]
+    for distance in np.geomspace(1.0, 10_000.0, 500):
+        way = Way(distance=distance, table=known)
+        least, loss = wlan.least_loss.py_func(way), wlan.path_loss(chosen, way)
+        assert least <= loss
+        if doubtful < distance <= 2.0 * doubtful:
+            assert loss - least < 0.3 * exponent
+
+
+def test_with_several_slopes_or_a_ray_from_the_ground_nothing_is_told_quickly():
+    """The loss is then worked out for every message."""
+    for path_loss in ("two_slopes", "three_slopes", "two_ray"):
+        assert table(settings(path_loss=path_loss))[wlan.DOUBTFUL] == np.inf
+
+
 # -- presets -----------------------------------------------------------------------------------------
 
 

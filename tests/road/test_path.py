@@ -19,6 +19,7 @@ from studio.road.ways.path import (
     PATH_SPEED,
     PATH_X,
     PATH_Y,
+    PROJECTION_REACH,
     interpolate,
     path,
     project,
@@ -185,6 +186,32 @@ def bend_points():
     x = np.where(s < 100, s, 100.0 + 60.0 * np.sin(angle)) + np.maximum(0.0, s - 100 - 20 * np.pi) * np.cos(np.pi / 3)
     y = 60.0 * (1.0 - np.cos(angle)) + np.maximum(0.0, s - 100 - 20 * np.pi) * np.sin(np.pi / 3)
     return np.array([x, y, angle, np.where(angle > 0, 1 / 60, 0.0), np.full(len(s), 10.0)])
+
+
+@given(st.integers(0, 2**32 - 1))
+def test_projection_is_the_nearest_of_all_pieces_within_reach(seed):
+    """Piece by piece, by the definition; on wild lines as well, whose pieces are short, long or nothing, and of equal ones the first."""
+    chance = np.random.default_rng(seed)
+    count = int(chance.integers(2, 30))
+    points = np.zeros((2, count))
+    points[:] = np.cumsum(np.round(chance.normal(0.0, chance.choice([0.1, 1.0, 3.0]), (2, count)), 1), axis=1)
+    x, y = np.round(chance.normal(0.0, chance.choice([0.5, 5.0, 50.0]), 2), 1)
+    guess = float(chance.uniform(-3.0, count + 3.0))
+    middle = int(guess)
+    low, high = max(0, min(middle - PROJECTION_REACH, count - 2)), min(count - 2, max(middle + PROJECTION_REACH, 0))
+    found = [nearest_on(points[:, i], points[:, i + 1], x, y) for i in range(low, high + 1)]
+    best = min(range(len(found)), key=lambda i: found[i][0])
+    s, offset = project(points, 0, count, x, y, guess)
+    assert (s, abs(offset)) == (low + best + found[best][1], np.sqrt(found[best][0]))
+
+
+def nearest_on(a, b, x, y):
+    """The squared distance of a point from a piece, and which share of the piece leads to the place that is nearest."""
+    t, d = b - a, np.array([x, y]) - a
+    along, squared = d[0] * t[0] + d[1] * t[1], t[0] * t[0] + t[1] * t[1]
+    u = 0.0 if along <= 0.0 else 1.0 if along >= squared else along / squared
+    r = d - u * t
+    return r[0] * r[0] + r[1] * r[1], u
 
 
 def test_projection_beyond_the_ends_stays_on_the_path(bend_points):

@@ -49,8 +49,9 @@ ROUNDING = 1e-9  # [dB]
 BLOCKED, SHADOW = 1, 2  # streams of a pair of units
 WAIT = 15  # draws of a message that all its receivers share
 SURVIVES, FADES, SPOILT, LATE = range(4)  # those of one receiver
-# Of the table: loss [dB] of free space, share of delays that is not cut, wear of a packet, powers of fading nearby and far away.
-AT_ONE_METRE, NOT_CUT, WORN = range(3)
+# Of the table: loss [dB] of free space, share of delays that is not cut, a distance [m], the loss there and the exponent, wear of a packet,
+# powers of fading nearby and far away.
+AT_ONE_METRE, NOT_CUT, DOUBTFUL, LOSS_THERE, EXPONENT, WORN = range(6)
 NEAR = WORN + packet.POINTS
 FAR = NEAR + fading.POINTS
 
@@ -178,7 +179,18 @@ def table(settings):
     closest = propagation.free_space(propagation.CLOSEST, propagation.wavelength(settings.frequency))
     rate = packet.RATES.index(float(settings.rate.split()[0]))
     share = arrival.not_cut(settings.delay, settings.delay_rest, settings.delay_longest)
-    return np.concatenate([[closest, share], packet.worn(rate), fading.quantiles(settings.m_near), fading.quantiles(settings.m_far)])
+    first = [closest, share, *doubtful(settings, closest, rate)]
+    return np.concatenate([first, packet.worn(rate), fading.quantiles(settings.m_near), fading.quantiles(settings.m_far)])
+
+
+def doubtful(settings, closest, rate):
+    """A distance [m] over which a signal is about as weak as is hopeless, the loss [dB] there, the exponent; none with several slopes."""
+    exponent = {"free_space": 2.0, "one_slope": settings.exponent}.get(settings.path_loss)
+    if exponent is None:
+        return inf, 0.0, 0.0
+    left = settings.transmit_power - settings.noise - packet.HOPELESS[rate] - closest
+    distance = 10.0 ** (max(left, 0.0) / (10.0 * exponent))
+    return distance, propagation.slopes(distance, closest, exponent, exponent, exponent, inf, inf), exponent
 
 
 @compiled
@@ -205,15 +217,18 @@ def transmit(settings, way, draw):
     """What becomes of a message, and how long it takes.
 
     What is too weak with the brightest shadow and fading is too weak; nobody has to look which there are. Nor which shadow there is where
-    the brightest is not enough, with this fading or without any.
+    the brightest is not enough, with this fading or without any. Mostly a loss that is not above the real one tells both.
     """
     taken = propagation.screened(way.walls, way.inside, way.decks, settings.buildings, settings.deck_loss)
-    clear = settings.transmit_power - path_loss(settings, way) - settings.noise
+    most = settings.transmit_power - least_loss(way) - settings.noise
     (darkest, lightest), hopeless = shadow_bounds(settings, way), packet.HOPELESS[int(settings.rate)]
-    if clear + lightest + brightest(settings, way) < hopeless:
+    if most + lightest + brightest(settings, way) < hopeless:
         return Transmission(TOO_WEAK, 0.0)
     draws = chances(draw, 0)
     faintest, strongest = fade_bounds(settings, way, draws[FADES])
+    if most + lightest + max(strongest, 0.0) < hopeless:
+        return Transmission(TOO_WEAK, 0.0)
+    clear = settings.transmit_power - path_loss(settings, way) - settings.noise
     if clear + lightest + max(strongest, 0.0) < hopeless:
         return Transmission(TOO_WEAK, 0.0)
     least, lost = clear - taken + darkest + faintest - settings.blockage, RECEIVED
@@ -299,6 +314,16 @@ def path_loss(settings, way):
     first = inf if which == ONE_SLOPE else settings.first_break
     second = max(settings.first_break, settings.second_break) if which == THREE_SLOPES else inf
     return propagation.slopes(way.distance, closest, settings.exponent, settings.second_exponent, settings.third_exponent, first, second)
+
+
+@inlined
+def least_loss(way):
+    """A loss [dB] that is not above what distance and ground take, without a logarithm: ln x is not below 2 (x - 1)/(x + 1) from 1 on."""
+    doubtful = way.table[DOUBTFUL]
+    if way.distance <= doubtful:
+        return -inf
+    beyond = 2.0 * (way.distance - doubtful) / (way.distance + doubtful)
+    return way.table[LOSS_THERE] + propagation.DECIBEL * way.table[EXPONENT] * beyond - ROUNDING
 
 
 @compiled

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from studio.compiled import lean
+from studio.compiled import inlined, lean
 from studio.errors import RouteError
 from studio.portable import arctan2
 from studio.road import kept
@@ -35,6 +35,7 @@ SWING_WAVELENGTH = 1.0  # [1] over the lock: shorter waves of a swing are where 
 HAND = 0.15  # [1/(m s)] how fast a car's curvature may change: wheels that turn by 0.4 rad/s, 2.7 m apart; a truck's as its lock is less
 LOWEST_SPEED = 2.0  # [m/s] the sharpest bend is still driven
 PROJECTION_REACH = 5  # [m] how far `project` looks from its guess
+ROUNDED = 1.0 + 1e-9  # more than a sum of squares is wrong by
 
 
 @dataclass(frozen=True)
@@ -326,19 +327,38 @@ def interpolate(points, first, row, s):
     return (1.0 - f) * points[row, first + i] + f * points[row, first + i + 1]
 
 
+@inlined
+def to_piece(points, column, x, y):
+    """The squared distance [m²] of a position from a piece of a path."""
+    d_x, d_y = x - points[PATH_X, column], y - points[PATH_Y, column]
+    t_x, t_y = points[PATH_X, column + 1] - points[PATH_X, column], points[PATH_Y, column + 1] - points[PATH_Y, column]
+    along, squared = d_x * t_x + d_y * t_y, t_x * t_x + t_y * t_y
+    u = 0.0 if along <= 0.0 else 1.0 if along >= squared else along / squared
+    return (d_x - u * t_x) * (d_x - u * t_x) + (d_y - u * t_y) * (d_y - u * t_y)
+
+
 @lean
 def project(points, first, count, x, y, s_guess):
-    """Arc length s [m] and lateral offset [m] (left positive) of a position, looked for within 5 m of `s_guess`."""
+    """Arc length s [m] and lateral offset [m] (left positive) of a position, looked for within 5 m of `s_guess`.
+
+    A piece from a to b cannot be the nearest where a is farther than the piece in the middle by more than its own length t. By the sign of
+    (1 - t)² that is so where a's squared distance is above t² + (1 + t²) m + m², with the distance m of the one in the middle.
+    """
     middle = int(s_guess)
     low = max(0, min(middle - PROJECTION_REACH, count - 2))
     high = min(count - 2, max(middle + PROJECTION_REACH, 0))
     best, best_s, side = np.inf, 0.0, 0.0
+    most = to_piece(points, first + min(max(middle, low), high), x, y)
+    m = np.sqrt(most)
     for i in range(low, high + 1):
         column = first + i
         a_x, a_y = points[PATH_X, column], points[PATH_Y, column]
         t_x, t_y = points[PATH_X, column + 1] - a_x, points[PATH_Y, column + 1] - a_y
         d_x, d_y = x - a_x, y - a_y
-        along, squared = d_x * t_x + d_y * t_y, t_x * t_x + t_y * t_y
+        squared = t_x * t_x + t_y * t_y
+        if d_x * d_x + d_y * d_y > (squared + (1.0 + squared) * m + most) * ROUNDED:
+            continue
+        along = d_x * t_x + d_y * t_y
         u = 0.0 if along <= 0.0 else 1.0 if along >= squared else along / squared
         r_x, r_y = d_x - u * t_x, d_y - u * t_y
         distance = r_x * r_x + r_y * r_y

@@ -27,6 +27,7 @@ from studio.vehicle.corner import side_of
 from studio.vehicle.parameter import L_F, L_R, TRACK_F, TRACK_R
 from studio.vehicle.state import PSI, X, Y
 from studio.world.effect import Slippery
+from studio.world.passes.fetch import EARLY, fetch
 from studio.world.table.street import (
     PIECE,
     PIECE_ACTS,
@@ -41,6 +42,7 @@ from studio.world.table.street import (
 )  # fmt: skip
 
 NEAR = 12.0  # [m] a piece farther from the centre of gravity is under no wheel
+BEHIND, STRIDE, WINDOW = 4, 1, 10  # points behind a station from which on they are fetched, from one to the next, how many
 MOST_NEAR = 1000  # pieces that are looked at for one vehicle
 
 
@@ -52,10 +54,16 @@ def blend(points, row, column, f):
 
 @inlined
 def plane(s, points, first, count):
-    """The plane that touches a path at station s [m], z = height + slope_x x + slope_y y: height, slope_x, slope_y."""
+    """The plane that touches a path at station s [m], z = height + slope_x x + slope_y y: height, slope_x, slope_y.
+
+    Most paths rise nowhere but on a bridge: there is no need to know where a level one leads.
+    """
     at = min(max(s, 0.0), (count - 1.001) * PATH_SPACING)
     column, f = first + int(at), at - int(at)
-    slope, heading = blend(points, PATH_SLOPE, column, f), blend(points, PATH_HEADING, column, f)
+    slope = blend(points, PATH_SLOPE, column, f)
+    if slope == 0.0:
+        return blend(points, PATH_HEIGHT, column, f), 0.0, 0.0
+    heading = blend(points, PATH_HEADING, column, f)
     g_x, g_y = slope * elementary.cos(heading), slope * elementary.sin(heading)
     level = g_x * blend(points, PATH_X, column, f) + g_y * blend(points, PATH_Y, column, f)
     return blend(points, PATH_HEIGHT, column, f) - level, g_x, g_y
@@ -80,12 +88,21 @@ def rise(state, parameter, station, points, path_first, path_count, raised, grou
     """First pass: height and slope of vehicles whose path is `raised`, one plane under an axle; the others' ground stays level."""
     n = state.shape[1]
     for v in range(n):
+        if v + EARLY < n:
+            bring(station[v + EARLY], points, path_first[v + EARLY])
         if raised[v] != 0:
             front = plane(station[v] + parameter[L_F, v], points, path_first[v], path_count[v])
             rear = plane(station[v] - parameter[L_R, v], points, path_first[v], path_count[v])
             for side in range(2):
                 put(side * n + v, front, ground)
                 put((2 + side) * n + v, rear, ground)
+
+
+@inlined
+def bring(station, points, first):
+    """Fetches what is known of the road around a station [m], from behind the own rear axle to before the front one."""
+    for k in range(WINDOW):
+        fetch(points, 0, first + int(station) - BEHIND + k * STRIDE)
 
 
 def is_raised(path: RoadPath) -> bool:

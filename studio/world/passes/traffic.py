@@ -20,6 +20,8 @@ from studio.road.ways.path import (
 )
 from studio.vehicle.parameter import C_FRONT, C_REAR, FRONT, L_F, L_R, LENGTH, MASS, STEER_MAX, STEER_RATE, WIDTH
 from studio.vehicle.state import ACTIVE, PSI, V_X, V_Y, YAW_RATE, X, Y
+from studio.world.passes.fetch import EARLY, fetch
+from studio.world.passes.ground import BEHIND, STRIDE, WINDOW
 from studio.world.passes.junction import BESIDE, ELBOW_ROOM, STANDING, has_to_let_pass, is_none_to_follow, lane_under, waits
 from studio.world.passes.level import OTHER_LEVEL
 from studio.world.passes.neighbour import COS, SIN
@@ -161,6 +163,8 @@ def orient(tick, state, parameter, places, points, path_first, path_count, stop_
            drivers, mind):  # fmt: skip
     """Second pass: own place on the path, permitted speed, next red light; forgets what was ahead."""
     for v in range(state.shape[1]):
+        if v + EARLY < state.shape[1]:
+            bring(v + EARLY, state, points, path_first[v + EARLY], mind)
         if state[ACTIVE, v] == 0.0:
             continue
         locate(v, state, parameter, places, points, path_first[v], path_count[v], mind)
@@ -172,6 +176,15 @@ def orient(tick, state, parameter, places, points, path_first, path_count, stop_
         stand(v, tick, state, mind)
         forget(v, mind)
         mind[STOPPING, v] = before_line(v, state, parameter, drivers, mind)
+
+
+@inlined
+def bring(v, state, points, first, mind):
+    """Fetches what is known of the road where a driver looks for himself, and where he will be."""
+    here = first + int(mind[STATION, v])
+    for k in range(WINDOW):
+        fetch(points, 0, here - BEHIND + k * STRIDE)
+    fetch(points, PATH_SPEED, here + int(SPEED_PREVIEW * state[V_X, v]))
 
 
 @inlined
