@@ -1,6 +1,7 @@
 """Marks on roads off the land: arrows, bars before lights and crossings of a bridge lie on its deck, not on the ground below it."""
 
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 import shapely
@@ -21,11 +22,12 @@ def parted(network: Network, relief: Relief) -> tuple[Marks, list[Surface]]:
     """The marks on the land, and those off it at the height of their road."""
     shown, low, high = marks_of(network), Marks([], [], []), []
     ends = [(lane, network.lanes[lane].length) for lane in network.signals.link_lane.tolist()]
-    for kept, mark, mesh, place in [
+    rows: list[tuple[list[Any], Any, Mesh, tuple[int, float]]] = [
         *((low.arrows, mesh, mesh, (lane, s)) for mesh, lane, s in arrows(network)),
         *((low.bars, bar, flat(bar), place) for bar, place in zip(shown.bars, ends, strict=True)),
         *((low.crossings, each, stripes(each), place) for each, place in roads_under(network, relief, shown.crossings)),
-    ]:
+    ]
+    for kept, mark, mesh, place in rows:
         if is_off(relief, *place):
             high.append(painted(mesh, relief, *place))
         else:
