@@ -184,7 +184,7 @@ def given_way(network, start, end, lock):
 
 @pytest.mark.parametrize(
     ("rings", "radius", "small", "clockwise", "centre"),
-    [(4, 20, 6, False, BERLIN), (3, 18, 7, True, LONDON)],
+    [(4, 20, 6, False, BERLIN), (4, 24, 7, True, LONDON)],
 )
 def test_in_rings_within_a_ring_every_way_that_is_given_is_driven_near_its_lanes(tmp_path, rings, radius, small, clockwise, centre):
     """From every street to every other, cars and trucks: within 3 m of the lanes and their lock, or refused with the turns."""
