@@ -1,5 +1,6 @@
 """What pydantic finds wrong, told as ours: the field's path, what is wrong, the value, what is allowed, the nearest name."""
 
+import re
 from collections.abc import Mapping
 from math import isfinite
 from typing import Any
@@ -12,6 +13,8 @@ from studio.kind.meant import mistakes
 from studio.scenario.schema import json_schema, located
 
 MOST_TOLD = 100  # problems of one document
+NAME = "^[A-Za-z][A-Za-z0-9_]*$"  # as the schema has it
+BEGUN = re.compile(r"\s*([-+]?\d+([.,]\d+)?([eE][-+]?\d+)?)")  # a number, whatever follows
 
 
 def problems(error: ValidationError, where: str, model: type, *, under: str = "") -> list[Problem]:
@@ -35,13 +38,31 @@ def problem(finding: ErrorDetails, where: str, model: type, under: str) -> Probl
     elif finding["type"] == "missing":
         what, value, remedy = "is missing", "", "add it"
     elif finding["type"] == "mistaken":
-        remedy = "write it without quotes" if is_quoted(finding["input"]) else ""
+        remedy = meant(finding["input"], node.get("unit", ""))
+    elif finding["type"] == "string_type":
+        remedy = "write it in quotes" if isinstance(finding["input"], int | float) else ""
+    elif finding["type"] in ("dict_type", "model_type"):
+        what, remedy = "is no mapping", ""
+        if finding["input"] is None:
+            what, value, remedy = "is empty", "", "fill it, write {}, or leave it out"
+    elif finding["type"] == "string_pattern_mismatch" and finding["ctx"]["pattern"] == NAME:
+        what = "is no name"
     return Problem(f"{where}: {path}", lower(what), value, allowed(finding), remedy)
 
 
-def is_quoted(value: Any) -> bool:
-    """Whether a text is what a number, or yes and no, would be without quotes."""
-    return isinstance(value, str) and (value in ("true", "false") or isinstance(read_number(value), float))
+def meant(value: Any, unit: str) -> str:
+    """How to write what a text seems to mean: the number in it, or a truth value."""
+    if not isinstance(value, str):
+        return ""
+    if value in ("true", "false") or read_number(value) is not None:
+        return "write it without quotes"
+    begun = BEGUN.match(value)
+    if begun is None:
+        return ""
+    plain, rest = begun[1].replace(",", "."), value[begun.end() :].strip()
+    if not rest:
+        return f"write {plain}, with a point" if "," in begun[1] else ""
+    return f"write the number alone; its unit is {unit}" if unit and unit != "1" else "write the number alone"
 
 
 def read_number(text: str) -> float | None:
@@ -78,6 +99,10 @@ def lower(text: str) -> str:
 
 def allowed(finding: ErrorDetails) -> str:
     """Bounds that a finding names."""
+    if finding["type"] in ("dict_type", "model_type"):
+        return "a mapping"
+    if finding["type"] == "string_pattern_mismatch" and finding["ctx"]["pattern"] == NAME:
+        return "a letter, then letters, digits and _"
     signs = {"ge": "≥", "gt": ">", "le": "≤", "lt": "<", "pattern": "pattern", "expected": ""}
     context = finding.get("ctx", {})
     return " ".join(f"{sign} {context[key]}".strip() for key, sign in signs.items() if key in context)

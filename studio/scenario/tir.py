@@ -16,7 +16,7 @@ MF-Tyre 5.0 and 5.1 (FITTYP 5) are special cases of 5.2; 6.x has terms that 5.2 
 
 import re
 from collections import defaultdict
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -74,6 +74,15 @@ RANGES = (("KPUMIN", "KPUMAX"), ("ALPMIN", "ALPMAX"), ("CAMMIN", "CAMMAX"), ("FZ
 USUAL_RANGE = {"KPUMIN": -1.5, "KPUMAX": 1.5, "ALPMIN": -1.5708, "ALPMAX": 1.5708}
 POSITIVE = ("FNOMIN", "UNLOADED_RADIUS", "LFZO", "LMUX", "LMUY", "VERTICAL_STIFFNESS", "LONGVL")
 NOT_NEGATIVE = ("VERTICAL_DAMPING",)
+# In SI; what lies beyond is written in another unit than the file says.
+EXTENT = {
+    "UNLOADED_RADIUS": (0.05, 3.0, " m", "correct it, or LENGTH in [UNITS]"),  # of a model car, of a dump truck
+    "FNOMIN": (20.0, 1e6, " N", "correct it, or FORCE in [UNITS]"),
+    **dict.fromkeys(("ALPMIN", "ALPMAX", "CAMMIN", "CAMMAX"), (-1.6, 1.6, " rad", "give it in radians")),
+    **dict.fromkeys(("KPUMIN", "KPUMAX"), (-10.0, 10.0, "", "give it as a ratio: 1 is 100 %")),
+}
+MOST_FRICTION = 5.0  # [1] of any tyre; those of racing cars have 2
+LARGEST_SHIFT = 0.2  # [rad] of side-slip without force; those of the files that we know are below 0.01
 # Divisors of the formula, or its slope.
 NOT_ZERO = ("PCX1", "PDX1", "PKX1", "PCY1", "PDY1", "PKY1", "PKY2", "LCX", "LCY", "LKY")
 
@@ -514,25 +523,56 @@ def check_values(sheet: Sheet, values: dict[str, float]) -> None:
         for low, high in RANGES
         if low in values and high in values and not values[low] < values[high]
     ]
+    problems += [
+        sheet.problem(key, f"is {values[key]:g}{unit}, as no tyre has it", f"{low:g} to {high:g}{unit}", remedy)
+        for key, (low, high, unit, remedy) in EXTENT.items()
+        if key in values and not low <= values[key] <= high and (key not in POSITIVE or values[key] > 0.0)
+    ]
     if side(sheet) not in SIDES:
         problems.append(sheet.problem("TYRESIDE", "is not a side", ", ".join(SIDES)))
     refuse(sheet.name, problems)
 
 
 def check_directions(sheet: Sheet, values: dict[str, float]) -> None:
-    """Refuses a tyre whose forces point the wrong way at small slip and nominal load, where the slopes are (Pacejka 2006, 4.E25, 4.E15)
+    """Refuses a tyre whose forces point the wrong way at nominal load: by its slopes at small slip (Pacejka 2006, 4.E25, 4.E15)
 
     K_y = PKY1 F_z0 sin(2 atan(F_z / (PKY2 F_z0))) LKY    below 0 in the axes of the formula: side force against side-slip
     K_x = PKX1 F_z LKX                                    above 0: drive for turning faster than rolling
+
+    or farther out, since D sin(C atan(…)) + S_V keeps its sign for 0 < C ≤ 2, D > 0 and |S_V| < D; and the trail D_t holds the wheel
+    straight if it is not below 0.
     """
     problems = []
     if values["PKY1"] * values["PKY2"] * values["LKY"] > 0.0:
         what = "turns the side force round: PKY1 · PKY2 · LKY, the sign of the cornering stiffness, is above 0"
         problems.append(sheet.problem("PKY1", what, "below 0", "change its sign if the set is for axes in which the stiffness is positive"))
-    if values["PKX1"] * values["LKX"] < 0.0:
-        what = "turns the longitudinal force round: PKX1 · LKX, the sign of the slip stiffness, is below 0"
+    if values["PKX1"] * values["LKX"] <= 0.0:
+        turned = "turns the longitudinal force round" if values["LKX"] else "leaves no longitudinal force"
+        what = f"{turned}: PKX1 · LKX, the sign of the slip stiffness, is not above 0"
         problems.append(sheet.problem("PKX1", what, "above 0", "change its sign if the set counts slip the other way"))
+    for axis, force in (("X", "longitudinal force"), ("Y", "side force")):
+        problems += shape_problems(sheet, values, axis, force)
+    if values["QDZ1"] * values["LTR"] < 0.0:
+        what = "turns the aligning moment round: QDZ1 · LTR, the sign of the pneumatic trail, is below 0"
+        problems.append(sheet.problem("QDZ1", what, "0 or above", "change its sign"))
     refuse(sheet.name, problems)
+
+
+def shape_problems(sheet: Sheet, values: dict[str, float], axis: str, force: str) -> Iterator[Problem]:
+    """What is wrong with the shape of a force over its slip at nominal load: C, D, and the shifts S_V and, of side-slip, S_H."""
+    C, D = values[f"PC{axis}1"] * values[f"LC{axis}"], values[f"PD{axis}1"]
+    if not 0.0 < C <= 2.0:
+        what = f"turns the {force} round at large slip: C = PC{axis}1 · LC{axis} is {C:g}"
+        yield sheet.problem(f"PC{axis}1", what, "above 0, up to 2", "correct it")
+    if not 0.0 < D <= MOST_FRICTION:
+        remedy = "correct it" if D > 0.0 else "change its sign"
+        yield sheet.problem(f"PD{axis}1", f"is the friction of the {force} at nominal load", f"above 0, up to {MOST_FRICTION:g}", remedy)
+    elif abs(shift := values[f"PV{axis}1"] * values[f"LV{axis}"]) >= D:
+        what = f"makes a {force} of one direction whatever the slip: PV{axis}1 · LV{axis} is {shift:g}"
+        yield sheet.problem(f"PV{axis}1", what, f"within ±{D:g}, the friction PD{axis}1", "correct it")
+    if axis == "Y" and abs(values["PHY1"] * values["LHY"]) > LARGEST_SHIFT:
+        what = "shifts the side-slip farther than any tyre does"
+        yield sheet.problem("PHY1", what, f"within ±{LARGEST_SHIFT:g} rad", "correct it; an angle in degrees is too large")
 
 
 def load_notes(values: dict[str, float]) -> list[str]:

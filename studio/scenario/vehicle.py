@@ -79,7 +79,19 @@ class Body(Part):
             (unsprung > 0.5 * self.mass) and f"the unsprung masses, {unsprung:g} kg, are more than half of the mass, {self.mass:g} kg",
             (reach >= self.length) and f"front_overhang + wheelbase, {reach:g} m, exceed the length {self.length:g} m",
             (track >= self.width) and f"a track of {track:g} m does not fit under a width of {self.width:g} m",
+            (self.gravity_height >= self.height)
+            and f"gravity_height {self.gravity_height:g} m must be less than the height {self.height:g} m",
+            *self.inertias(),
         )
+
+    def inertias(self):
+        """No mass within a box has more inertia about an axis than it would have at the box's farthest edges: m (a² + b²)/4."""
+        sizes = {"roll": (self.width, self.height), "pitch": (self.length, self.height), "yaw": (self.length, self.width)}
+        for axis, (a, b) in sizes.items():
+            most, given = 0.25 * self.mass * (a * a + b * b), getattr(self, f"{axis}_inertia")
+            yield (given > most) and (
+                f"{axis}_inertia {given:g} kg m² is more than {self.mass:g} kg within {a:g} m by {b:g} m can have: at most {most:.0f} kg m²"
+            )
 
 
 class Suspension(Part):

@@ -1,8 +1,11 @@
 """OpenDRIVE element by element, missing, empty, unknown, out of range: a flawed element costs that element, and is told with its place."""
 
+import re
+
 import numpy as np
 import pytest
 
+from studio.errors import MapError
 from studio.road import load
 from studio.road.ways.path import path
 from studio.road.ways.route import all_routes, connect
@@ -345,3 +348,78 @@ def test_a_reference_to_a_signal_that_there_is_not_is_told(tmp_path):
     network = load(written(tmp_path, SOUND, road("7", extra=extra)))
     (told,) = (each for each in network.report.skipped if each.kind == "signal")
     assert (told.what, told.where) == ("signalReference 99", "road 7, s = 150.0 m") and len(network.signals) == 0
+
+
+# -- widths ----------------------------------------------------------------------------------------
+
+
+def lane_of(*widths, kind="driving", name=-1):
+    """A lane with these records of its width."""
+    return f'<lane id="{name}" type="{kind}">{"".join(f"<{each}/>" for each in widths)}</lane>'
+
+
+def record(a, b="0", tag="width", **at):
+    return f'{tag} {" ".join(f"{k}={chr(34)}{v}{chr(34)}" for k, v in at.items())} a="{a}" b="{b}" c="0" d="0"'
+
+
+NEAR = 12.0  # [m] between two places at which a straight road is looked at
+NO_WIDTH = {
+    "below 0": (
+        (record("-3.5", sOffset=0),),
+        "<lane> -1: it is -3.5 m wide at s = 0; allowed: 0 to 100 m; 0 m is taken: correct its <width>",
+    ),
+    "turned below 0": ((record("1", "-0.05", sOffset=0),), "it is -9 m wide at s = 200; allowed: 0 to 100 m"),
+    "too narrow": ((record("1.2", sOffset=0),), "<lane> -1: it is 1.20 m wide at most; a car needs 1.8 m"),
+    "not said": ((), "<lane> -1: it has no <width> and no <border>; a car needs 1.8 m"),
+    "a border beyond the middle": ((record("2", tag="border", sOffset=0),), "it is -2 m wide at s = 0"),
+}
+
+
+@pytest.mark.parametrize("case", NO_WIDTH)
+def test_a_width_that_no_lane_has_is_told_and_is_the_reason_where_nothing_is_left(tmp_path, case):
+    widths, told = NO_WIDTH[case]
+    text = section(lane_of(*widths) + lane_of(record("1", sOffset=0), kind="sidewalk", name=-2))
+    with pytest.raises(MapError, match=re.escape(told)) as refused:
+        load(written(tmp_path, road("7", sections=text)))
+    assert "road 7, <laneSection> at s = 0, <lane> -1" in str(refused.value)
+    network = load(written(tmp_path, SOUND, road("7", sections=text), name="two.xodr"))
+    assert set(network.roads) == {"1"} and any(told in line and "at road 7" in line for line in skipped(network))
+
+
+@pytest.mark.parametrize(
+    ("begin", "at", "offset"),
+    [("0", {"s": 0}, 0.0), ("0", {"s": 60}, 60.0), ("50", {"s": 110}, 60.0), ("50", {"s": 20}, 20.0), ("50", {}, 0.0)],
+)
+def test_a_record_with_s_in_place_of_its_offset_holds_from_that_station_on(tmp_path, begin, at, offset):
+    """`s` is a station along the road; one before the section can only be a distance from its start."""
+    before = "" if begin == "0" else section()
+    first = () if offset == 0.0 else (record("3", sOffset=0),)
+    text = section(lane_of(*first, record("4", **at)), s=f's="{begin}"')
+    network = load(written(tmp_path, road("7", sections=before + text)))
+    own = max((lane for lane in network.lanes), key=lambda lane: lane.centre[0, -1])
+    x, y = own.centre + np.array(network.datum)[:, None]
+    assert np.interp(float(begin) + offset + NEAR, x, y) == pytest.approx(-2.0)
+    assert offset == 0.0 or np.interp(float(begin) + offset - NEAR, x, y) == pytest.approx(-1.5)
+    (line,) = [line for line in guessed(network) if line.startswith("width")]
+    assert f"from {offset:g} m after the section's start at road 7" in line and "<lane> -1: <width> has no sOffset" in line
+
+
+def test_of_records_at_one_place_the_last_counts_and_one_that_begins_late_is_told(tmp_path):
+    twice = section(lane_of(record("4", sOffset=0), record("3", sOffset=0)))
+    late = section(lane_of(record("3", sOffset=40)))
+    for name, text, told in (("7", twice, "several begin at the same place; the last one counts"), ("8", late, "begins so late")):
+        network = load(written(tmp_path, road(name, sections=text), name=f"{name}.xodr"))
+        assert network.lanes[0].centre[1, -1] + network.datum[1] == pytest.approx(-1.5)
+        assert any(told in line and f"at road {name}" in line for line in skipped(network))
+
+
+def test_a_width_that_ends_a_hair_below_nothing_is_none_to_tell_of(tmp_path):
+    """As programs write it where a lane runs out: 3.5 m over 200 m, and 4e-4 m too much."""
+    network = load(written(tmp_path, road("7", sections=section(lane_of(record("3.5", "-0.017502", sOffset=0))))))
+    assert not any("allowed: 0 to 100 m" in line for line in skipped(network))
+
+
+@pytest.mark.parametrize(("s", "stands"), [("-5", 0.0), ("260", 200.0)])
+def test_a_signal_beyond_its_road_stands_at_its_end_and_that_is_told(tmp_path, s, stands):
+    network = load(written(tmp_path, SOUND, road("7", extra=signal(s=s))))
+    assert any(f"at s = {stands:g} m at road 7" in line and f"is {s} m; allowed: 0 to 200 m" in line for line in guessed(network))

@@ -1,5 +1,6 @@
 """Turns narrower than a car's lock are told, with what is driven; those that no car gets round are left out."""
 
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 
@@ -14,9 +15,10 @@ from studio.road.network.report import Notes, Spot
 from studio.road.ways.approach import Approaches
 from studio.road.ways.lock import MOST_ASIDE, bend_over
 from studio.road.ways.path import PATH_CURVATURE, PATH_HEADING, path
-from studio.road.ways.route import connect
+from studio.road.ways.route import arms, away, connect
 from studio.road.ways.strand import strands_of
 from studio.scenario import catalogue, figures
+from tests.road.plot import BERLIN, LONDON, plot
 
 ROOT = Path(__file__).parents[2]
 MAPS = {
@@ -142,3 +144,61 @@ def test_a_trucks_line_is_wider(mitte):
 def test_bends_on_hand_made_maps_need_no_import():
     net = net_of(2.0)
     assert bend_over(Approaches(replace(net)), net.connections[0], TRUCK).curvature <= TRUCK
+
+
+# -- turns that follow each other closely ----------------------------------------------------------
+
+STREET = {"highway": "residential", "maxspeed": "50"}
+CIRCLE = STREET | {"junction": "roundabout", "oneway": "yes", "lanes": "1"}
+
+
+def rings_in_a_ring(target, *, rings, radius, small, clockwise, centre):
+    """Small roundabouts on a circle, each joined with the next one and with a street from outside: the ring junctions of Swindon."""
+    nodes, ways, count = {}, {}, 12
+    for k in range(rings):
+        angle, own = 2 * np.pi * k / rings, []
+        for i in range(count):
+            turn = angle + (-1 if clockwise else 1) * 2 * np.pi * i / count
+            name = 1000 * (k + 1) + i
+            nodes[name] = (radius * np.cos(angle) + small * np.cos(turn), radius * np.sin(angle) + small * np.sin(turn))
+            own.append(name)
+        nodes[100 + k] = ((radius + small + 100) * np.cos(angle), (radius + small + 100) * np.sin(angle))
+        ways |= {100 + k: ([*own, own[0]], CIRCLE), 300 + k: ([own[0], 100 + k], STREET)}
+    for k in range(rings):
+        here, there = ([1000 * (j + 1) + i for i in range(count)] for j in (k, (k + 1) % rings))
+        closest = min(((a, b) for a in here for b in there), key=lambda pair: np.hypot(*np.subtract(*map(nodes.get, pair))))
+        ways[200 + k] = (list(closest), STREET)
+    return plot(target, nodes, ways, centre=centre)
+
+
+def given_way(network, start, end, lock):
+    """The way from a street to another; None for a truck that is told which turns are too narrow for it."""
+    if lock == curve.LOCK:
+        return connect(network, [start, end])
+    with suppress(RouteError):
+        return connect(network, [start, end], lock=lock)
+    with pytest.raises(RouteError, match="turns no sharper than with a radius of 8"):
+        connect(network, [start, end], lock=lock)
+    return None
+
+
+@pytest.mark.parametrize(
+    ("rings", "radius", "small", "clockwise", "centre"),
+    [(4, 20, 6, False, BERLIN), (4, 24, 7, True, LONDON)],
+)
+def test_in_rings_within_a_ring_every_way_that_is_given_is_driven_near_its_lanes(tmp_path, rings, radius, small, clockwise, centre):
+    """From every street to every other, cars and trucks: within 3 m of the lanes and their lock, or refused with the turns."""
+    network = load(rings_in_a_ring(tmp_path / "map.osm", rings=rings, radius=radius, small=small, clockwise=clockwise, centre=centre))
+    entries, exits = arms(network)
+    assert len(entries) == len(exits) == rings
+    given = {curve.LOCK: 0, TRUCK: 0}
+    for lock in given:
+        for start, end in ((start, end) for start in entries for end in exits if start.lstrip("-") != end.lstrip("-")):
+            way = given_way(network, start, end, lock)
+            if way is None:
+                continue
+            given[lock] += 1
+            line = path(network, way, lock=lock).points
+            assert np.abs(line[PATH_CURVATURE]).max() <= 1.05 * lock
+            assert away(line[:2], [network.lanes[lane].centre for lane in way.lanes]).max() <= MOST_ASIDE
+    assert given[curve.LOCK] == rings * (rings - 1)

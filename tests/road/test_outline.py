@@ -24,7 +24,7 @@ def flats(place):
         "green": areas["green"],
         "water": areas["water"],
         "road": flat(road_form(place)),
-        "marking": marking.marking_mesh(place, road_form(place)),
+        "marking": marking.marking_mesh(place, road_form(place), marking.marks_of(place)),
         "shadow": shadow_mesh(place, sun=SUN),
     }
 
@@ -66,7 +66,7 @@ def test_every_car_drives_on_asphalt(place, paths):
 
 def test_markings_lie_on_the_road(place):
     bare = replace(place, scenery=replace(place.scenery, spaces=place.scenery.spaces[:, :0]))  # spaces lie beside it
-    mesh = marking.marking_mesh(bare, road_form(bare))
+    mesh = marking.marking_mesh(bare, road_form(bare), marking.marks_of(bare))
     middles = mesh.vertices[mesh.faces].mean(axis=1)
     form = road_form(place).buffer(0.2)
     shapely.prepare(form)
@@ -107,4 +107,7 @@ def test_a_part_in_the_air_throws_its_shadow_beside_itself():
 
 def test_a_place_without_scenery_has_empty_meshes(straight):
     assert len(shadow_mesh(straight, sun=SUN).faces) == 0
-    assert len(flat(road_form(straight)).faces) > 0 and len(marking.marking_mesh(straight, road_form(straight)).faces) > 0
+    assert (
+        len(flat(road_form(straight)).faces) > 0
+        and len(marking.marking_mesh(straight, road_form(straight), marking.marks_of(straight)).faces) > 0
+    )

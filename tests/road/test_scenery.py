@@ -234,7 +234,7 @@ def test_lane_lines_end_before_a_painted_crossing(plan, tmp_path):
     node = plan.node(0.0, 0.0, highway="crossing", crossing="zebra")
     plan.way([(-150, 0), node, (150, 0)], **STREET)
     found = plan.load(tmp_path)
-    painted = shapely.union_all(marking.painted(found, road_form(found)))
+    painted = shapely.union_all(marking.painted(found, road_form(found), marking.marks_of(found)))
     (crossing,) = found.scenery.crossings
     strip = marking.ground_of(crossing)
     # six stripes on 6.4 m and nothing else

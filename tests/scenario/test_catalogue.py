@@ -402,6 +402,10 @@ LEAF = "{{value: {}, unit: {}, origin: measured, source: scales}}"
         ("body.front_distance", "1.9", ["body", "front_distance 1.9 m must be less than the wheelbase 1.81 m"]),
         ("body.unsprung_mass_rear", "600", ["the unsprung masses, 656 kg, are more than half"]),
         ("body.front_track", "1.6", ["a track of 1.6 m does not fit under a width of 1.52 m"]),
+        ("body.gravity_height", "1.6", ["gravity_height 1.6 m must be less than the height"]),
+        ("body.yaw_inertia", "5000", ["yaw_inertia 5000 kg m² is more than 860 kg within", "can have: at most"]),
+        ("body.pitch_inertia", "60000", ["pitch_inertia 60000 kg m² is more than 860 kg within"]),
+        ("body.roll_inertia", "2600", ["roll_inertia 2600 kg m² is more than 860 kg within"]),
         ("suspension.stiffness_rear", "3000", []),
     ],
 )  # fmt: skip

@@ -106,6 +106,8 @@ def nested_aliases(levels: int) -> str:
         (f"a: {'9' * 5000}\n", ["line 1, column 4", "too long a number"]),
         ("a: [1,\n  2\nb: 3\n", ["line 3", "flow sequence that begins in line 1"]),
         ("a: b: c\n", ["line 1, column 5", "mapping values"]),
+        ("a:\n\tb: 1\n", ["line 2, column 1", "a line begins with a tab", "indent with spaces"]),
+        ("a:\n  b: 1\n  \tc: 2\n", ["line 3", "a line begins with a tab", "indent with spaces"]),
         ("a: \x00\n", ["control characters"]),
         ("a: \ud800\n", ["not YAML"]),
     ],
@@ -137,3 +139,13 @@ def test_what_is_written_reads_the_same_in_both_versions(given_value, flow):
     text = splice.written({"a": given_value}, flow=flow) + "\n"
     assert source.same(source.read(text, "my.yaml").value, {"a": given_value})
     assert source.same(yaml.safe_load(text), {"a": given_value})
+
+
+@pytest.mark.parametrize(
+    ("data", "line", "byte"),
+    [("a: 1\nb: Größe\n".encode("latin-1"), 2, "0xf6"), ("a: 1\n".encode("utf-16"), 1, "0xff"), (b"a: 1\r\n\r\n# \x80\n", 3, "0x80")],
+)
+def test_another_encoding_is_told_with_its_line(data, line, byte):
+    with pytest.raises(ScenarioError) as told:
+        source.decoded(data, "my.yaml")
+    assert f"my.yaml, line {line}: holds a byte that is no UTF-8 (got {byte}); allowed: UTF-8; save the file as UTF-8" in str(told.value)

@@ -2,10 +2,11 @@
 
 import re
 
+import numpy as np
 import pytest
 
 from studio.errors import ScenarioError
-from studio.model.tyre import Tyre
+from studio.model.tyre import Tyre, lateral_pure
 from studio.scenario import tir
 
 
@@ -179,9 +180,10 @@ def test_names_of_the_formula(lines, read, whole):
 
 def test_units(read, whole):
     """Millimetres, kilonewtons, milliseconds: only what carries a unit is converted."""
-    text = changed(changed(changed(whole, "LENGTH", "'mm'"), "FORCE", "'kN'"), "TIME", "'millisecond'")
-    values, plain = read(text).values, read(whole).values
-    factors = {"UNLOADED_RADIUS": 1e-3, "FNOMIN": 1e3, "FZMAX": 1e3, "VERTICAL_STIFFNESS": 1e6, "VERTICAL_DAMPING": 1e3,
+    plain = read(whole).values
+    text = changed(changed(whole, "UNLOADED_RADIUS", f"{1e3 * plain['UNLOADED_RADIUS']!r}"), "FNOMIN", f"{1e-3 * plain['FNOMIN']!r}")
+    values = read(changed(changed(changed(text, "LENGTH", "'mm'"), "FORCE", "'kN'"), "TIME", "'millisecond'")).values
+    factors = {"UNLOADED_RADIUS": 1.0, "FNOMIN": 1.0, "FZMAX": 1e3, "VERTICAL_STIFFNESS": 1e6, "VERTICAL_DAMPING": 1e3,
                "LONGVL": 1.0, "PCY1": 1.0, "ALPMAX": 1.0, "SSZ1": 1.0}  # fmt: skip
     assert {key: values[key] / plain[key] for key in factors} == pytest.approx(factors, rel=1e-12)
 
@@ -194,8 +196,15 @@ def test_units(read, whole):
      ("TIME", "hour", "LONGVL", 1 / 3600), ("TIME", "minute", "VERTICAL_DAMPING", 60.0), ("MASS", "slug", "MBELT", 14.593902937206365)],
 )  # fmt: skip
 def test_each_unit(quantity, unit, key, factor, read, whole):
-    converted = read(changed(whole, quantity, f"'{unit}'")).values
-    assert converted[key] == pytest.approx(factor * read(whole).values[key], rel=1e-12)
+    plain = read(whole).values
+    text = whole
+    for bounded, of in (("UNLOADED_RADIUS", "LENGTH"), ("FNOMIN", "FORCE")):
+        if quantity == of:
+            per_unit = tir.UNITS[of][unit.lower()]
+            assert key != bounded or per_unit == factor
+            text = changed(text, bounded, f"{plain[bounded] / per_unit!r}")
+    converted = read(changed(text, quantity, f"'{unit}'")).values
+    assert converted[key] == pytest.approx((1.0 if key in ("UNLOADED_RADIUS", "FNOMIN") else factor) * plain[key], rel=1e-12)
 
 
 def test_unknown_units(refused, whole):
@@ -321,8 +330,8 @@ def test_values_that_no_tyre_has(key, value, allowed, refused, whole):
 
 @pytest.mark.parametrize(("low", "high"), tir.RANGES)
 def test_ranges_that_are_none(low, high, refused, whole):
-    (problem,) = refused(changed(changed(whole, low, "2"), high, "1"))
-    assert (problem.what, problem.value, problem.allowed) == (f"is not below {high}", "2", "< 1")
+    (problem,) = refused(changed(changed(whole, low, "1.5"), high, "1"))
+    assert (problem.what, problem.value, problem.allowed) == (f"is not below {high}", "1.5", "< 1")
 
 
 def test_an_unknown_side(refused, whole):
@@ -451,3 +460,47 @@ def test_loads_at_which_nothing_is_left(key, value, what, read, whole):
     assert found.values[key[:-1] + "1"] + value * (load - nominal) / nominal <= 0.0
     assert any(f"the {what} is not above 0 at {load:g} N" in note for note in found.notes)
     assert not any("not above 0" in note for note in read(whole).notes)
+
+
+HOSTILE = {
+    "millimetres that are metres": ({"LENGTH": "'mm'"}, "UNLOADED_RADIUS", "m, as no tyre has it", "0.05 to 3 m"),
+    "metres that are millimetres": ({"UNLOADED_RADIUS": "286"}, "UNLOADED_RADIUS", "is 286 m", "0.05 to 3 m"),
+    "a load in tons": ({"FNOMIN": "0.4"}, "FNOMIN", "is 0.4 N", "20 to 1e+06 N"),
+    "side-slip in degrees": ({"ALPMAX": "15"}, "ALPMAX", "is 15 rad", "-1.6 to 1.6 rad"),
+    "slip in percent": ({"KPUMAX": "150"}, "KPUMAX", "is 150, as", "-10 to 10"),
+    "a shift in degrees": ({"PHY1": "0.3"}, "PHY1", "shifts the side-slip", "within ±0.2 rad"),
+    "friction of another sign": ({"PDY1": "-1.01"}, "PDY1", "is the friction of the side force", "above 0, up to 5"),
+    "friction in percent": ({"PDX1": "110"}, "PDX1", "is the friction of the longitudinal force", "above 0, up to 5"),
+    "a shape that turns back": (
+        {"PCY1": "2.4"},
+        "PCY1",
+        "turns the side force round at large slip: C = PCY1",
+        "above 0, up to 2",
+    ),
+    "a shape below 0": ({"LCX": "-1"}, "PCX1", "turns the longitudinal force round at large slip", "above 0, up to 2"),
+    "force without slip": ({"PVY1": "5"}, "PVY1", "makes a side force of one direction whatever the slip", "the friction PDY1"),
+    "no stiffness": ({"LKX": "0"}, "PKX1", "leaves no longitudinal force", "above 0"),
+    "a trail before the wheel": ({"QDZ1": "-0.06"}, "QDZ1", "turns the aligning moment round", "0 or above"),
+    "no speed": ({"LONGVL": "0"}, "LONGVL", "is out of range", "> 0"),
+}
+
+
+@pytest.mark.parametrize("case", HOSTILE)
+def test_numbers_that_make_a_wrong_tyre_are_told_with_place_value_and_range(case, refused, whole):
+    changes, key, what, allowed = HOSTILE[case]
+    text = whole
+    for name, value in changes.items():
+        is_there = re.search(rf"(?m)^{name}\s*=", text)
+        text = changed(text, name, value) if is_there else added(text, "SCALING_COEFFICIENTS", f"{name} = {value}")
+    found = {each.where.rpartition(" ")[2]: each for each in refused(text)}
+    assert what in found[key].what and allowed in found[key].allowed and found[key].remedy and "line " in found[key].where
+
+
+@pytest.mark.parametrize(("C", "D", "S_V"), [(1.99, 1.0, 0.0), (0.3, 0.2, 0.19), (1.3, 4.9, -4.8)])
+def test_what_is_taken_never_turns_round(C, D, S_V, read, whole):
+    """At nominal load, in the file's own range of side-slip: the force goes against it from where it is greatest on, whatever the shape."""
+    text = changed(changed(changed(whole, "PCY1", str(C)), "PDY1", str(D)), "PVY1", str(S_V))
+    t = Tyre(*tir.coefficients(read(text)))
+    alpha = np.linspace(t.PHY1 + 0.6, 1.57, 60)
+    left, right = (np.array([lateral_pure(t, side * a, 0.0, t.FNOMIN, 1.0) for a in alpha]) for side in (-1.0, 1.0))
+    assert (left > right).all()

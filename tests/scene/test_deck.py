@@ -10,7 +10,7 @@ from studio.road.network import curve
 from studio.road.network.outline import strip
 from studio.road.ways.relief import relief_of
 from studio.scene import city
-from studio.scene.city import deck, stretch
+from studio.scene.city import deck, marking, raised, stretch
 from tests.road.plot import plot
 
 LAYERS = {"aloft", "decks"}
@@ -100,3 +100,52 @@ def test_all_bridges_are_two_meshes(tmp_path, streets):
     plain = {each.name for each in city.layers(crossed(tmp_path / "flat.osm", {}, streets=streets))}
     names = [each.name for each in city.layers(crossed(tmp_path / "map.osm", BRIDGE, streets=streets))]
     assert set(names) == plain | LAYERS | {"deck_shadow"} and len(names) == len(set(names))
+
+
+# -- what is painted on a bridge -------------------------------------------------------------------
+
+LIT, ZEBRA = {"highway": "traffic_signals"}, {"highway": "crossing", "crossing": "zebra", "crossing:markings": "zebra"}
+TURNS = {"oneway": "yes", "lanes": "2", "turn:lanes": "left|through"}
+
+
+def painted_crossing(target, tags):
+    """A street of two lanes that goes up onto a bridge, where it meets another at lights; a zebra; and a street below."""
+    nodes = {
+        1: (-500, 0),
+        2: (-150, 0),
+        3: (-40, 0, ZEBRA),
+        4: (0, 0, LIT),
+        5: (150, 0),
+        6: (500, 0),
+        7: (0, 150),
+        8: (-90, -200),
+        9: (-90, 200),
+    }
+    ways = {
+        11: ([1, 2], TURNS), 12: ([2, 3, 4], TURNS | tags), 13: ([4, 5], {"oneway": "yes"} | tags), 14: ([5, 6], {"oneway": "yes"}),
+        15: ([4, 7], {"oneway": "yes"} | tags), 16: ([8, 9], {}),
+    }  # fmt: skip
+    return load(plot(target, nodes, ways))
+
+
+@pytest.mark.parametrize("tags", [BRIDGE, BRIDGE | {"layer": "2"}, TUNNEL])
+def test_marks_lie_on_the_road_that_they_are_painted_on(tmp_path, tags):
+    """On the bridge as many triangles as on the same street on the ground, all at the height of its deck, and none below."""
+    plain, network = painted_crossing(tmp_path / "flat.osm", {}), painted_crossing(tmp_path / "map.osm", tags)
+    relief = relief_of(network)
+    low, high = raised.parted(network, relief)
+    flat = marking.marks_of(plain)
+    assert len(plain.signals) == len(network.signals) == 2
+    assert (len(flat.bars), len(flat.crossings)) == (2, 1) and len(flat.arrows) >= 2
+    # the arrows of the way up, if any, stay on the ground
+    assert (len(low.bars), len(low.crossings)) == (0, 0) and len(high) + len(low.arrows) == 3 + len(flat.arrows)
+    assert len(high) >= 5
+    sign = -1.0 if tags == TUNNEL else 1.0
+    storey = sign * STOREY * float(tags.get("layer", 1))
+    deck_ground = shapely.union_all([strip(lane.centre, lane.width) for lane in network.lanes if relief.of_lane(lane.id)[2].any()])
+    for each in high:
+        assert (each.normals[:, 2] > 0.9).all()
+        x, y, z = each.vertices.T.astype(float)
+        assert z == pytest.approx(np.full(z.size, storey + deck.PAINT), abs=0.35)
+        assert shapely.contains_xy(deck_ground.buffer(1.0), x, y).all()
+    assert {each.name for each in city.layers(network)} >= LAYERS

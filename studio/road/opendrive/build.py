@@ -16,8 +16,10 @@ from studio.road.network import Connection, Lane, Net, Pair, Road, curve
 from studio.road.network.report import Notes, Spot
 from studio.road.opendrive.chain import chains_of
 from studio.road.opendrive.document import Document, XRoad
-from studio.road.opendrive.graph import NARROWEST, Atom, Graph, Limit, graph_of
+from studio.road.opendrive.graph import Atom, Graph, Limit, graph_of
+from studio.road.opendrive.lane import UNUSABLE
 from studio.road.opendrive.stop import signed, stop_lines
+from studio.road.opendrive.width import NARROWEST
 
 VARYING = 0.3  # [m] by which a lane's width may vary without a word
 STRAIGHT, TURN = np.radians(25.0), np.radians(60.0)  # [rad] a way through a junction that turns less goes straight, or is slight
@@ -48,7 +50,7 @@ def build(document: Document, limit: Limit, spot: Callable[[str, float], Spot], 
     stop_lines(graph, spot, notes)
     chains = [chain for road in document.roads.values() for chain in chains_of(graph, road)]
     if not any(chain[0][0] not in graph.inner for chain in chains):
-        left_out = [each.reason for each in document.remarks if each.kind in ("road", "lane")]
+        left_out = sorted((each.reason for each in document.remarks if each.kind in ("road", "lane")), key=lambda each: each == UNUSABLE)
         why = f"; {left_out[0]}" if left_out else ""
         raise MapError(f"there are no roads for cars in this map: no <lane> of a <road> outside of junctions is for them{why}")
     return built(graph, chains, spot, notes)

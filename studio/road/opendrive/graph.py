@@ -19,8 +19,8 @@ from studio.errors import MapError
 from studio.road.opendrive.document import DRIVABLE, KEPT_FOR_OTHERS, Document, Join, Link, Section, Strip, XRoad
 from studio.road.opendrive.file import leave_out
 from studio.road.opendrive.sample import Line, samples, strip_line
+from studio.road.opendrive.width import NARROWEST, is_wide
 
-NARROWEST = 1.8  # [m] a narrower lane holds no car
 AT_END = 0.5  # [m] a stop line nearer to the end of its lane stands at it
 SIDES = (-1, 1)
 
@@ -102,7 +102,7 @@ def cut(road: XRoad, limit: Limit, document: Document) -> Iterator[Piece]:
     """The pieces of a road: cut where a section begins, a limit changes, or a light of its own stands before the road's end."""
     ends = [*(section.s for section in road.sections[1:]), road.length]
     for section, end in zip(road.sections, ends, strict=True):
-        used = [strip for strip in section.strips.values() if is_used(section, strip, end)]
+        used = [strip for strip in section.strips.values() if is_used(road, section, strip, end, document)]
         used = list(one_way(road, section, used, document))
         cuts = {section.s, *(s for s, *_ in road.kinds), *(each.s for each in road.signals if each.rule == "light")}
         cuts |= {section.s + s for strip in section.strips.values() for s, _ in strip.speeds}
@@ -117,11 +117,9 @@ def speed_of(road: XRoad, section: Section, strip: Strip, s: float, limit: Limit
     return own[-1] if own and math.isfinite(own[-1]) else limit(road, s)
 
 
-def is_used(section: Section, strip: Strip, end: float) -> bool:
+def is_used(road: XRoad, section: Section, strip: Strip, end: float, document: Document) -> bool:
     """Whether a lane becomes one of ours: it is for vehicles, and a car fits into it."""
-    if strip.type not in DRIVABLE | KEPT_FOR_OTHERS:
-        return False
-    return float(strip.width.at(np.linspace(0.0, end - section.s, 33)).max()) >= NARROWEST
+    return is_wide(road, section, strip, end, document) and strip.type in DRIVABLE | KEPT_FOR_OTHERS
 
 
 def one_way(road: XRoad, section: Section, used: list[Strip], document: Document) -> Iterator[Strip]:
@@ -299,7 +297,7 @@ def note_ends(graph: Graph) -> None:
         for k, piece in enumerate(graph.pieces[road.id]):
             for lane in piece.speeds:
                 atom = (road.id, k, lane)
-                if not graph.after.get(atom) and goes_on(graph, road, k, forward=graph.is_forward(atom)) and is_wide(graph, atom):
+                if not graph.after.get(atom) and goes_on(graph, road, k, forward=graph.is_forward(atom)) and ends_wide(graph, atom):
                     end = "end" if graph.is_forward(atom) else "start"
                     what, reason = f"lane {lane} ends", "no <link> or <laneLink> leads on from it"
                     graph.document.remark("lane end", what, road.id, place_of(graph, (road.id, k), end), reason)
@@ -311,7 +309,7 @@ def goes_on(graph: Graph, road: XRoad, k: int, *, forward: bool) -> bool:
     return not last or (road.after if forward else road.before) is not None
 
 
-def is_wide(graph: Graph, atom: Atom) -> bool:
+def ends_wide(graph: Graph, atom: Atom) -> bool:
     """Whether a car still fits into a lane at its end."""
     widths = graph.pieces[atom[0]][atom[1]].lines[atom[2]].width
     return bool(widths[-1 if graph.is_forward(atom) else 0] >= NARROWEST)

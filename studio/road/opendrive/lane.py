@@ -6,17 +6,16 @@ from collections.abc import Iterator
 from dataclasses import replace
 from xml.etree.ElementTree import Element
 
-import numpy as np
-
 from studio.errors import MapError
 from studio.road.opendrive.document import DRIVABLE, KEPT_FOR_OTHERS, Document, Section, Strip
 from studio.road.opendrive.element import number, place, spared, whole
 from studio.road.opendrive.reference_line import NOTHING, Profile
 from studio.road.opendrive.speed import read_speed
+from studio.road.opendrive.width import offset_of, width_of
 
 SHORTEST = 1e-6  # [m] a section that is shorter is none
-WIDEST_LANE = 100.0  # [m] above this a width is a slip
 MOST_LANES = 64  # of one section
+UNUSABLE = "cars cannot use lanes of this type"
 SIDES = (("left", 1), ("right", -1))
 CARS = {"passengerCar", "motorVehicle"}
 DIRECTIONS = {"standard", "reversed", "both"}
@@ -81,7 +80,7 @@ def read_section(element: Element, s: float, where: str, road: str, found: Docum
             if strip.type not in DRIVABLE | KEPT_FOR_OTHERS:
                 unused[strip.type] += 1
     for kind, count in unused.items():
-        found.remark("lane", f"{count} of type {kind}", road, s, "cars cannot use lanes of this type")
+        found.remark("lane", f"{count} of type {kind}", road, s, UNUSABLE)
     return Section(s, strips)
 
 
@@ -127,14 +126,7 @@ def read_strip(
 ) -> tuple[Strip, Profile]:  # fmt: skip
     """One lane, and the border it ends at; its width is given, or is what lies between two borders. Raises MapError."""
     where = f"{where}, <lane> {name}"
-    width, border = (element.findall(tag) for tag in ("width", "border"))
-    if width or not border:
-        shape, outer = cubics(width, where), NOTHING
-    else:
-        outer = cubics(border, where)
-        shape = difference(outer, edge, sign)
-    if shape.starts.size and np.abs(shape.k[0]).max() > WIDEST_LANE:
-        raise MapError(f"{where}: it is {np.abs(shape.k[0]).max():g} m wide; allowed: up to {WIDEST_LANE:g} m")
+    shape, outer = width_of(element, edge, sign, s, where, road, found)
     kind = element.get("type") or "none"
     strip = Strip(
         id=name,
@@ -174,35 +166,9 @@ def linked(element: Element, tag: str, s: float, where: str, road: str, found: D
 def read_speeds(element: Element, s: float, where: str, road: str, found: Document) -> Iterator[tuple[float, float]]:
     """The limits of a lane: distance [m] from the section's start, limit [m/s]."""
     for each in element.findall("speed"):
-        made = spared(found, "speed", road, s, lambda each=each: (number(each, "sOffset", where, 0.0), read_speed(each, where)))
+        made = spared(found, "speed", road, s, lambda each=each: (offset_of(each, s, where, road, found), read_speed(each, where)))
         if made is not None:
             yield made
-
-
-def cubics(elements: list[Element], where: str) -> Profile:
-    """The widths or borders of a lane; raises MapError."""
-    rows = sorted((number(each, "sOffset", where, 0.0), *(number(each, name, where) for name in "abcd")) for each in elements)
-    if not rows:
-        return NOTHING
-    table = np.array(rows).T
-    return Profile(table[0].copy(), table[1:].copy())
-
-
-def difference(outer: Profile, inner: Profile, sign: int) -> Profile:
-    """How far one border lies beyond another."""
-    starts = np.union1d(outer.starts, inner.starts)
-    columns = [[sign * (a - b) for a, b in zip(moved(outer, s), moved(inner, s), strict=True)] for s in starts]
-    return Profile(starts, np.array(columns).T)
-
-
-def moved(of: Profile, s: float) -> np.ndarray:
-    """The coefficients that hold from s on, for the distance from there (Taylor's expansion)."""
-    i = int(np.searchsorted(of.starts, s, side="right")) - 1
-    if i < 0:
-        return np.zeros(4)
-    a, b, c, d = of.k[:, i]
-    h = s - of.starts[i]
-    return np.array([a + h * (b + h * (c + h * d)), b + h * (2 * c + h * 3 * d), c + 3 * d * h, d])
 
 
 def admits_cars(element: Element, lane: int, s: float, road: str, found: Document) -> bool:

@@ -14,6 +14,7 @@ from studio.road.opendrive.reference_line import NOTHING, Bend, Cubic, Profile, 
 from studio.road.opendrive.signal import read_signals
 from studio.road.opendrive.speed import read_speed
 from studio.road.opendrive.vocabulary import note_unread
+from studio.road.opendrive.width import in_order
 
 LONGEST_ROAD = 100_000.0  # [m]
 LONGEST_GAP = 1.0  # [m] between the elements of a reference line
@@ -166,10 +167,10 @@ def profile(elements: list[Element], road: str, found: Document) -> Profile:
                                                                         *coefficients(each, "abcd", f"road {road}")))
         for each in elements
     )  # fmt: skip
-    rows = sorted(row for row in made if row is not None)
+    rows = [row for row in made if row is not None]
     if not rows:
         return NOTHING
-    table = np.array(rows).T
+    table = np.array(in_order(rows, elements[0].tag, f"road {road}", road, found)).T
     return Profile(table[0].copy(), table[1:].copy())
 
 

@@ -25,6 +25,7 @@ SIGNS = {
     ("NL", "NLD"): {"B1": "priority", "B6": "yield", "B7": "stop"},
     ("", "OPENDRIVE"): GERMAN,
 }
+BEYOND = 0.5  # [m] by which programs write signals behind the end of their road
 CODES = {code: signs for codes, signs in SIGNS.items() for code in codes}
 
 
@@ -39,7 +40,9 @@ def read_signals(element: Element, length: float, road: str, found: Document) ->
         rule = found.rules.get(name)
         if name not in found.rules:
             found.remark("signal", f"signalReference {name}", road, place(each, "s"), "names no signal of the document")
-        made = rule and spared(found, "signal", road, place(each, "s"), lambda each=each, rule=rule: signal(each, length, road, rule))
+        made = rule and spared(
+            found, "signal", road, place(each, "s"), lambda each=each, rule=rule: signal(each, length, road, rule, found)
+        )
         if made:
             yield made
 
@@ -48,7 +51,7 @@ def read_signal(element: Element, length: float, road: str, found: Document) -> 
     """A light or sign that is used; None of another, which is noted. Raises MapError."""
     rule, kind, country = rule_of(element), element.get("type") or "-1", element.get("country") or ""
     named = f"signal {element.get('id')} of type {kind}" + (f" in {country}" if country and country != "OpenDRIVE" else "")
-    made = signal(element, length, road, rule)
+    made = signal(element, length, road, rule, found)
     if rule in ("yield", "stop", "priority") and not country.replace("OpenDRIVE", ""):
         found.derive("sign", f"{named}: {rule}", road, made.s, "no country: German numbers, as simulators use them")
     if rule:
@@ -70,12 +73,21 @@ def rule_of(element: Element) -> str:
     return CODES.get((element.get("country") or "").upper(), {}).get(kind.upper(), "")
 
 
-def signal(element: Element, length: float, road: str, rule: str) -> Signal:
+def signal(element: Element, length: float, road: str, rule: str, found: Document) -> Signal:
     """A light or sign, for the lanes that it is valid for; a `<validity>` for lane 0 alone means all. Raises MapError."""
     spans = [(whole(each, "fromLane", "<validity>"), whole(each, "toLane", "<validity>")) for each in element.findall("validity")]
     lanes = tuple((min(span), max(span)) for span in spans if span != (0, 0))
     orientation = element.get("orientation") or "none"
     if orientation not in ("+", "-", "none"):
         raise MapError(f"road {road}: orientation of <{element.tag}> is unknown (got {orientation[:20]!r}); allowed: +, -, none")
-    s = min(max(0.0, number(element, "s", f"road {road}")), length)
-    return Signal(element.get("id") or "", s, orientation, lanes, rule)
+    return Signal(element.get("id") or "", station_of(element, length, road, found), orientation, lanes, rule)
+
+
+def station_of(element: Element, length: float, road: str, found: Document) -> float:
+    """Where a signal stands on its road [m]: one that stands beyond its ends stands at the nearer one, which is told. Raises MapError."""
+    said = number(element, "s", f"road {road}")
+    s = min(max(0.0, said), length)
+    if abs(said - s) > BEYOND:
+        source = f"road {road}: s of <{element.tag}> {element.get('id')} is {said:g} m; allowed: 0 to {length:g} m"
+        found.derive(element.tag, f"at s = {s:g} m", road, s, source)
+    return s

@@ -5,14 +5,20 @@ from collections.abc import Collection, Sequence
 from itertools import pairwise
 from typing import NamedTuple
 
+import numpy as np
+import shapely
+
 from studio.errors import Problem, RouteError, nearest
 from studio.road.network import Network, curve
 from studio.road.network.graph import graph_of, search, without, without_turns
 from studio.road.network.index import once
 from studio.road.ways.lane_path import LanePath
-from studio.road.ways.lock import is_drivable
+from studio.road.ways.lock import GENTLE, MOST_ASIDE, is_drivable
+from studio.road.ways.path import path
 
 MOST_NAMED = 5  # turns in a message
+MOST_TRIES = 12  # ways that are looked at where turns are too narrow
+NEAREST = 2  # connections to the place where a vehicle leaves its lanes that are tried to do without
 SHORTEST = 2.0  # [m] there is nothing to drive on a way that is shorter
 
 
@@ -83,24 +89,69 @@ def connect(
     starts = lanes if start_lane is None else (lanes[start_lane],)
     if start_lane is None and any(network.lanes[lane].open for lane in lanes):
         starts = tuple(lane for lane in lanes if network.lanes[lane].open)
-    graph, shut = without(graph_of(network), avoid), ()
-    way, reached = search(graph, tuple(roads), starts, turn_back=turn_back)
-    while way and (narrow := too_narrow(network, way, lock)):
-        shut = (*shut, *narrow)
-        way, reached = search(without_turns(graph, shut), tuple(roads), starts, turn_back=turn_back)
-    if not way:
-        raise too_narrow_a_way(network, tuple(roads), reached, shut, lock) if shut else no_way(network, tuple(roads), reached)
-    check_length(network, roads, sum(network.lanes[lane].length for lane in way))
-    return LanePath(way)
+    graph = without(graph_of(network), avoid)
+
+    def wide(shut: tuple[int, ...]) -> tuple[tuple[int, ...], int, tuple[int, ...]]:
+        """The quickest way without some connections and without those that are too narrow, how far one comes, and all that was left out."""
+        way, reached = search(without_turns(graph, shut) if shut else graph, tuple(roads), starts, turn_back=turn_back)
+        while way and (narrow := too_narrow(network, way, lock)):
+            shut = (*shut, *narrow)
+            way, reached = search(without_turns(graph, shut), tuple(roads), starts, turn_back=turn_back)
+        return way, reached, shut
+
+    waiting: list[tuple[int, ...]] = [()]
+    refused: tuple[int, tuple[int, ...]] | None = None
+    for _ in range(MOST_TRIES):
+        way, reached, shut = wide(waiting.pop(0))
+        if way:
+            check_length(network, roads, sum(network.lanes[lane].length for lane in way))
+            near = too_near(network, way, lock)
+            if not near:
+                return LanePath(way)
+            waiting = [(*shut, each) for each in near] + waiting
+        else:
+            refused = refused or (reached, shut)
+        if not waiting:
+            break
+    reached, shut = refused or (len(roads) - 1, waiting[0])
+    raise too_narrow_a_way(network, tuple(roads), reached, shut, lock) if shut else no_way(network, tuple(roads), reached)
 
 
 def too_narrow(network: Network, way: tuple[int, ...], lock: float) -> tuple[int, ...]:
     """The connections on a way that are too narrow for a vehicle of a lock [1/m]; none for a car, for which all are wide enough."""
     if lock >= curve.LOCK:
         return ()
+    return tuple(each for each in passed_on(network, way) if not is_drivable(network, each, lock))
+
+
+def too_near(network: Network, way: tuple[int, ...], lock: float) -> tuple[int, ...]:
+    """Where a vehicle of a lock [1/m] leaves its lanes too far, since turns that it gets round one by one follow each other too closely:
+    the nearest connections, any of which may be left out; none for a car, and where it keeps to its way."""
+    passed = passed_on(network, way)
+    if lock >= curve.LOCK or not any(network.connections[each].sharpest > GENTLE * lock for each in passed):
+        return ()
+    line = path(network, LanePath(way), lock=lock).points[:2]
+    aside = away(line, [network.lanes[lane].centre for lane in way])
+    if aside.max() <= MOST_ASIDE:
+        return ()
+    ends = {each: network.lanes[network.connections[each].from_lane].centre[:, -1] for each in passed}
+    x, y = line[:, int(aside.argmax())]
+    return tuple(sorted(ends, key=lambda each: math.hypot(ends[each][0] - x, ends[each][1] - y))[:NEAREST])
+
+
+def away(points: np.ndarray, lines: list[np.ndarray]) -> np.ndarray:
+    """How far points float64[2, n] are from the nearest of some lines [m]."""
+    pieces = np.concatenate([np.stack([line[:, :-1].T, line[:, 1:].T], axis=1) for line in lines])
+    tree = shapely.STRtree(shapely.linestrings(pieces))
+    (place, _), far = tree.query_nearest(shapely.points(points.T), return_distance=True, all_matches=False)
+    return far[np.argsort(place)]
+
+
+def passed_on(network: Network, way: tuple[int, ...]) -> list[int]:
+    """The numbers of the connections on a way, but for turning back."""
     number, roads = numbers(network), [lane for lane in way if not network.lanes[lane].internal]
     passed = (number[pair] for pair in pairwise(roads) if pair in number)
-    return tuple(each for each in passed if network.connections[each].direction != "turn" and not is_drivable(network, each, lock))
+    return [each for each in passed if network.connections[each].direction != "turn"]
 
 
 @once

@@ -136,7 +136,11 @@ def decoded(data: bytes, where: str) -> str:
     try:
         return data.decode("utf-8")
     except UnicodeDecodeError as error:
-        raise ScenarioError(f"{where} is not a text file.", [Problem(where, str(error), allowed="UTF-8")]) from None
+        line = data[: error.start].count(b"\n") + 1
+        problem = Problem(
+            f"{where}, line {line}", "holds a byte that is no UTF-8", f"0x{data[error.start]:02x}", "UTF-8", "save the file as UTF-8"
+        )
+        raise ScenarioError(f"{where} is not a text file.", [problem]) from None
 
 
 def read(text: str, where: str) -> Source:
@@ -147,14 +151,23 @@ def read(text: str, where: str) -> Source:
         mark = error.problem_mark
         place = f"line {mark.line + 1}, column {mark.column + 1}" if mark else ""
         begun = f", {error.context} that begins in line {error.context_mark.line + 1}" if error.context_mark else ""
+        if mark and indented_by_tab(text, mark.line):
+            raise not_yaml(where, place, "a line begins with a tab", "indent with spaces") from None
         raise not_yaml(where, place, f"{error.problem}{begun}") from None
     except (yaml.YAMLError, UnicodeError) as error:
         raise not_yaml(where, "", str(error).splitlines()[0]) from None
 
 
-def not_yaml(where: str, place: str, what: str) -> ScenarioError:
+def indented_by_tab(text: str, line: int) -> bool:
+    """Whether a line, counted from 0, is indented by a tab, which YAML does not allow."""
+    lines = text.splitlines()
+    indent = lines[line][: -len(lines[line].lstrip())] if line < len(lines) else ""
+    return "\t" in indent
+
+
+def not_yaml(where: str, place: str, what: str, remedy: str = "mend the syntax there") -> ScenarioError:
     """A refusal of a text that cannot be read."""
-    problem = Problem(f"{where}, {place}" if place else where, what, remedy="mend the syntax there")
+    problem = Problem(f"{where}, {place}" if place else where, what, remedy=remedy)
     return ScenarioError(f"{where} is not YAML.", [problem])
 
 

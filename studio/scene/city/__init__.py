@@ -15,6 +15,7 @@ from studio.scene.city import building, marking, tree, verge
 from studio.scene.city.area import area_meshes
 from studio.scene.city.deck import Aloft, aloft
 from studio.scene.city.mesh import Mesh, flat
+from studio.scene.city.raised import parted
 from studio.scene.city.shadow import shadow_mesh
 from studio.scene.city.stretch import on_land
 from studio.scene.city.upright import uprights
@@ -70,24 +71,25 @@ def layers(network: Network) -> list[Layer]:
     if relief is None or not relief.lift.any():
         return [
             Layer("ground", glb(ground(radius=horizon(network)), Material(unlit=True)), GROUND),
-            *on_ground(network, network, shapely.Polygon()),
+            *on_ground(network, network, shapely.Polygon(), marking.marks_of(network)),
         ]
     above, land = aloft(network, relief), on_land(network, relief)
+    low, high = parted(network, relief)
     return [
         Layer("ground", glb(holed(ground_form(horizon(network)), above.opened), Material(unlit=True)), GROUND),
-        *on_ground(network, land, above.opened),
-        *_aloft(above),
+        *on_ground(network, land, above.opened, low),
+        *_aloft(above, high),
     ]
 
 
-def on_ground(network: Network, land: Network, opened: BaseGeometry) -> list[Layer]:
-    """What lies and stands on the land, but where the ground is open; `land` is the part of the network that lies on it."""
+def on_ground(network: Network, land: Network, opened: BaseGeometry, marks: marking.Marks) -> list[Layer]:
+    """What lies and stands on the land, but where the ground is open; `land` is the part of the network that lies on it, with its marks."""
     form = road_form(land)
     return [
         *_areas(network, opened),
         *_shoulders(land, form),
         _flat("road", flat(form), ROAD),
-        _flat("markings", marking.marking_mesh(land, form), MARKING),
+        _flat("markings", marking.marking_mesh(land, form, marks), MARKING),
         *_buildings(network),
         *_uprights(network, land, form),
     ]
@@ -122,9 +124,12 @@ def holed(form: BaseGeometry, opened: BaseGeometry) -> Surface:
     return surface(mesh.vertices, mesh.faces, on_level_ground(COLOURS["ground"]))
 
 
-def _aloft(above: Aloft) -> list[Layer]:
-    """What lies off the land: roads, what carries them, their shadow, and ground over tunnels that one sees through."""
-    found = [Layer("aloft", glb(above.roads, Material(unlit=True))), Layer("decks", glb(above.solids, Material(roughness=0.85)))]
+def _aloft(above: Aloft, paint: list[Surface]) -> list[Layer]:
+    """What lies off the land: roads and their paint, what carries them, their shadow, and ground over tunnels that one sees through."""
+    found = [
+        Layer("aloft", glb(joined([above.roads, *paint]), Material(unlit=True))),
+        Layer("decks", glb(above.solids, Material(roughness=0.85))),
+    ]
     if len(above.shadow.faces):
         shade = surface(above.shadow.vertices, above.shadow.faces, np.append(linear(SHADOW_COLOUR), SHADOW_OPACITY))
         found.append(Layer("deck_shadow", glb(shade, Material(unlit=True, blend=True)), SHADOW))

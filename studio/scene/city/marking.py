@@ -6,6 +6,7 @@ lines of a crossing with lights 0.50 m on and 0.20 m off, arrows 5 m long.
 
 from collections import defaultdict
 from collections.abc import Iterator, Sequence
+from typing import NamedTuple
 
 import numpy as np
 import shapely
@@ -27,26 +28,39 @@ SPACE_LINE = 0.1  # [m]
 TURNS = {"straight": "straight", "left": "left", "right": "right", "slight_left": "left", "slight_right": "right"}
 
 
-def marking_mesh(network: Network, form: BaseGeometry) -> Mesh:
+class Marks(NamedTuple):
+    """What is painted at certain places: arrows, bars before lights, and crossings."""
+
+    arrows: list[Mesh]
+    bars: list[BaseGeometry]
+    crossings: list[Crossing]
+
+
+def marks_of(network: Network) -> Marks:
+    """All of a map."""
+    bars = [stop_line(network, link) for link in range(len(network.signals))]
+    shown = [crossing for crossing in network.scenery.crossings if crossing.marking != "none"]
+    return Marks([mesh for mesh, *_ in arrows(network)], bars, shown)
+
+
+def marking_mesh(network: Network, form: BaseGeometry, marks: Marks) -> Mesh:
     """Everything that is painted on a road of this plane shape, and the lines of parking spaces beside it."""
-    pieces = painted(network, form)
+    pieces = painted(network, form, marks)
     quick = is_quad(pieces)
     others = [flat(each) for each in pieces[~quick]]
-    return merged([quad_mesh(pieces[quick]), *others, space_mesh(network.scenery.spaces), *arrow_mesh(network)])
+    return merged([quad_mesh(pieces[quick]), *others, space_mesh(network.scenery.spaces), *marks.arrows])
 
 
-def painted(network: Network, form: BaseGeometry) -> np.ndarray:
+def painted(network: Network, form: BaseGeometry, marks: Marks) -> np.ndarray:
     """All lines and crossings as plane shapes; lane markings keep off junctions and painted crossings."""
     roads = [road.id for road in network.roads.values() if not road.internal]
     middles = shapely.union_all([middle_line(network, road) for road in roads])
     junctions = junction_form(network)
     middles = middles.intersection(form.buffer(-MIDDLE_INSET)).difference(junctions)
     dashes = outside([line for road in roads for line in road_lines(network, road)], junctions.buffer(-INSIDE))
-    stops = [stop_line(network, link) for link in range(len(network.signals))]
-    shown = [crossing for crossing in network.scenery.crossings if crossing.marking != "none"]
-    covered = [ground_of(crossing).buffer(STOPPED_BY, join_style="mitre") for crossing in shown]
-    lines = without(np.array([*dashes, *stops, *polygons(middles), *polygons(edge_lines(network, form))]), covered)
-    crossed = np.array([piece for crossing in shown for piece in crossing_pieces(crossing)], dtype=object)
+    covered = [ground_of(crossing).buffer(STOPPED_BY, join_style="mitre") for crossing in marks.crossings]
+    lines = without(np.array([*dashes, *marks.bars, *polygons(middles), *polygons(edge_lines(network, form))]), covered)
+    crossed = np.array([piece for crossing in marks.crossings for piece in crossing_pieces(crossing)], dtype=object)
     return np.concatenate([lines, within(crossed, form)])
 
 
@@ -131,8 +145,8 @@ HEADS = {
 HEADS["right"] = [[(x, -y) for x, y in reversed(piece)] for piece in HEADS["left"]]
 
 
-def arrow_mesh(network: Network) -> Iterator[Mesh]:
-    """Arrows on lanes that lead elsewhere than their neighbours, and along one-way aisles."""
+def arrows(network: Network) -> Iterator[tuple[Mesh, int, float]]:
+    """Arrows on lanes that lead elsewhere than their neighbours, and along one-way aisles; lane and station of their middle."""
     ways = defaultdict(set)
     for connection in network.connections:
         if connection.direction in TURNS:
@@ -142,15 +156,20 @@ def arrow_mesh(network: Network) -> Iterator[Mesh]:
         if len({frozenset(ways[lane.id]) for lane in lanes}) > 1:
             for lane in lanes:
                 if ways[lane.id] and lane.length > ARROW_ROOM:
-                    yield arrow(lane, lane.length - ARROW_BEFORE, ways[lane.id])
+                    yield arrow_at(lane, lane.length - ARROW_BEFORE, ways[lane.id])
         if road.kind == "service" and len(lanes) == 1 and not has_opposite(network, road.id):
             for tip in np.arange(AISLE_ARROWS / 2.0, lanes[0].length - 1.0, AISLE_ARROWS):
-                yield arrow(lanes[0], max(tip, ARROW_LENGTH), {"straight"})
+                yield arrow_at(lanes[0], max(tip, ARROW_LENGTH), {"straight"})
 
 
 def has_opposite(network: Network, road: str) -> bool:
     """Whether the same way is driven in the other direction too."""
     return (road[1:] if road.startswith("-") else f"-{road}") in network.roads
+
+
+def arrow_at(lane: Lane, tip: float, ways: set[str]) -> tuple[Mesh, int, float]:
+    """An arrow, its lane and the station of its middle [m]."""
+    return arrow(lane, tip, ways), lane.id, tip - ARROW_LENGTH / 2.0
 
 
 def arrow(lane: Lane, tip: float, ways: set[str]) -> Mesh:
