@@ -4,7 +4,8 @@ Before the line of a way, where its strand begins, he decides whether he may go;
 
     sign, ring, light    who goes first by the map is let by, unless the gap before him is long enough; a full halt first where a stop sign
                          stands. With a green light one waits in the junction, where the ways meet
-    equal                who comes first goes first; at an all-way stop who has stood longer
+    equal                who comes first goes first; at an all-way stop who has stood longer. Where the ways run together who is slow moves
+                         up to that place: from afar, each of a stream would be there before him
     corners              whom a building hides is not minded; one comes so slowly that one can still stop for him, and feels one's way
     several ways         between which there is no room for the own body are decided about together, before the line of the first
     behind a line        who has come to a stand there, before the place where he gives way, gives way there as before the line
@@ -21,7 +22,7 @@ from math import inf, nan, sqrt
 from studio.compiled import inlined
 from studio.model import driver
 from studio.model.passage import AFTER, PATIENT, arrival, arrival_below, is_enough, merging_headway, wanted_gap
-from studio.road.ways.conflict import ALONG, GIVE, NONE, SHARED, TAKE
+from studio.road.ways.conflict import ALONG, EQUAL, GIVE, NONE, SHARED, TAKE
 from studio.road.ways.path import PATH_SPACING, PATH_SPEED, interpolate, project
 from studio.vehicle.parameter import FRONT, LENGTH, WIDTH
 from studio.vehicle.state import V_X
@@ -432,7 +433,10 @@ def comes_first(v, other, m, to_enter, its_way, its_time, to_line, state, parame
     if is_first and not sets_off_before(v, other, its_way, state, drivers, mind):
         return False
     if web.shape[m] == ALONG:
-        let_in(v, number[other], to_enter - its_way - parameter[LENGTH, other], state[V_X, other], state, drivers, mind)
+        if web.turn[m] == EQUAL and state[V_X, v] < CRAWL:  # he moves up to where the ways run together, and takes his turn there
+            follow(v, number[other], to_enter, 0.0, state, drivers, mind)
+        else:
+            let_in(v, number[other], to_enter - its_way - parameter[LENGTH, other], state[V_X, other], state, drivers, mind)
         return False
     length = web.span[ITS_LEAVE, m] - web.span[ITS_ENTER, m] + parameter[LENGTH, other]
     if its_time + leaves_in(other, length, state) + AFTER < own_time:
