@@ -8,7 +8,7 @@ Before the line of a way, where its strand begins, he decides whether he may go;
                          up to that place: from afar, each of a stream would be there before him
     corners              whom a building hides is not minded; one comes so slowly that one can still stop for him, and feels one's way
     several ways         between which there is no room for the own body are decided about together, before the line of the first
-    behind a line        who has come to a stand there, before the place where he gives way, gives way there as before the line
+    behind a line        who has come to a stand there, before the place where he gives way, gives way there once more to those who drive
     within a junction    behind a way, where another begins at once, one does not wait before its line for somebody who stands beyond, but
                          moves up to where he is: one's own rear may be in another's way
     crossed ways         are not entered while there is no room behind them; nor is a ring where there is room for a few only
@@ -332,7 +332,7 @@ def lets_go(v, other, m, strand, to_enter, its_way, its_nose, to_line, top, stat
         return False
     its_time = mind[MISJUDGED, v] * comes_in(other, its_way, state, drivers, mind)
     at_light = web.right[strand] == SIGNAL
-    is_late = decides_again(v, m, strand, to_enter, to_line, state, web)
+    is_late = decides_again(v, other, m, strand, to_enter, to_line, state, web)
     if turn == GIVE and (to_line >= 0.0 or at_light or is_late):
         if has_time(v, other, m, strand, to_enter, its_way, its_time, to_line, top, state, parameter, number, entity, web, drivers, mind):
             return False
@@ -347,11 +347,11 @@ def lets_go(v, other, m, strand, to_enter, its_way, its_nose, to_line, top, stat
 
 
 @inlined
-def decides_again(v, m, strand, to_enter, to_line, state, web):
+def decides_again(v, other, m, strand, to_enter, to_line, state, web):
     """Whether v, beyond its line, decides once more before it comes in somebody's way, where it can still stop: a corner has let it see
-    no sooner, or it has come to a stand there behind somebody, and what it saw before its line is long over."""
-    may = web.right[strand] != LANE and (has_corner(m, web) or state[V_X, v] < STANDING)
-    return to_line < 0.0 and may and driver.can_stop(state[V_X, v], to_enter - READY)
+    no sooner, or it has come to a stand there behind somebody, and the other drives. Of two who stand there, none waits for the other."""
+    may = has_corner(m, web) or state[V_X, v] < STANDING <= state[V_X, other]
+    return to_line < 0.0 and web.right[strand] != LANE and may and driver.can_stop(state[V_X, v], to_enter - READY)
 
 
 @inlined
