@@ -100,13 +100,37 @@ def test_of_two_who_have_come_onto_a_place_at_once_one_leaves_first(tmp_path, on
     """Both stand with so many metres of their noses where their ways meet: who has come less far lets the other leave."""
     ways = [("south", "north"), ("west", "east")]
     run = Run(tmp_path, ways, seconds=0.1)
-    web, drives, front = run.world.roads.web, run.world.roads.drive_first + 1, run.world.vehicles.parameter[FRONT]
-    (m,) = (m for m in range(*web.first[web.strand[drives[0]] + [0, 1]]) if web.partner[m] == web.strand[drives[1]])
-    enter = run.line + web.span[[OWN_ENTER, ITS_ENTER], m] - web.drive[START, drives]
+    enter, front = places_where_they_meet(run), run.world.vehicles.parameter[FRONT]
     run = Run(tmp_path, ways, starts=[float(each) for each in enter + [one, other] - front], speeds=[0.0, 0.0])
     assert run.is_fine()
     first, last = sorted((run.passes(i, beyond=20.0), i) for i in range(2))
     assert first[0] + 0.5 < last[0] < np.inf and (one == other or first[1] == int(other > one))
+
+
+@pytest.mark.parametrize(("away", "waits"), [(26.0, True), (90.0, False)])
+def test_who_stands_beyond_his_line_gives_way_there(tmp_path, away, waits):
+    """As one stands who has followed somebody over the line and stopped behind him, two metres before the greater street, clear of it.
+
+    Somebody on it comes with 8 m/s and is there in 2.9 s. He himself would be there in 1.7 s, but gone only after 3.7 s: he waits, and the
+    other need not slow down. Of one who is 90 m away he makes nothing.
+    """
+    ways = [("south", "north"), ("west", "east")]
+    run = Run(tmp_path, ways, classes=MAJOR, seconds=0.1)
+    enter, front = places_where_they_meet(run), run.world.vehicles.parameter[FRONT]
+    assert enter[0] - 2.0 > run.line[0] + 0.5
+    starts = [float(each) for each in enter - [2.0, away] - front]
+    run = Run(tmp_path, ways, classes=MAJOR, starts=starts, speeds=[0.0, 8.0], seconds=20.0)
+    assert run.is_fine()
+    first, second = sorted(range(2), key=lambda i: float(run.time[np.flatnonzero(run.nose[i] > enter[i])[0]]))
+    assert (first, second) == ((1, 0) if waits else (0, 1))
+    assert run.speed[1, run.nose[1] < enter[1]].min() > 7.5
+
+
+def places_where_they_meet(run):
+    """On the line of either car [m], where it comes in the way of the other one."""
+    web, drives = run.world.roads.web, run.world.roads.drive_first + 1
+    (m,) = (m for m in range(*web.first[web.strand[drives[0]] + [0, 1]]) if web.partner[m] == web.strand[drives[1]])
+    return run.line + web.span[[OWN_ENTER, ITS_ENTER], m] - web.drive[START, drives]
 
 
 def test_who_turns_across_waits_for_who_comes_from_ahead(tmp_path):

@@ -4,9 +4,11 @@ Before the line of a way, where its strand begins, he decides whether he may go;
 
     sign, ring, light    who goes first by the map is let by, unless the gap before him is long enough; a full halt first where a stop sign
                          stands. With a green light one waits in the junction, where the ways meet
-    equal                who comes first goes first; at an all-way stop who has stood longer
+    equal                who comes first goes first; at an all-way stop who has stood longer. Where the ways run together who is slow moves
+                         up to that place: from afar, each of a stream would be there before him
     corners              whom a building hides is not minded; one comes so slowly that one can still stop for him, and feels one's way
     several ways         between which there is no room for the own body are decided about together, before the line of the first
+    behind a line        who has come to a stand there, before the place where he gives way, gives way there once more to those who drive
     within a junction    behind a way, where another begins at once, one does not wait before its line for somebody who stands beyond, but
                          moves up to where he is: one's own rear may be in another's way
     crossed ways         are not entered while there is no room behind them; nor is a ring where there is room for a few only
@@ -20,7 +22,7 @@ from math import inf, nan, sqrt
 from studio.compiled import inlined
 from studio.model import driver
 from studio.model.passage import AFTER, PATIENT, arrival, arrival_below, is_enough, merging_headway, wanted_gap
-from studio.road.ways.conflict import ALONG, GIVE, NONE, SHARED, TAKE
+from studio.road.ways.conflict import ALONG, EQUAL, GIVE, NONE, SHARED, TAKE
 from studio.road.ways.path import PATH_SPACING, PATH_SPEED, interpolate, project
 from studio.vehicle.parameter import FRONT, LENGTH, WIDTH
 from studio.vehicle.state import V_X
@@ -330,24 +332,26 @@ def lets_go(v, other, m, strand, to_enter, its_way, its_nose, to_line, top, stat
         return False
     its_time = mind[MISJUDGED, v] * comes_in(other, its_way, state, drivers, mind)
     at_light = web.right[strand] == SIGNAL
-    feels = feels_the_way(v, m, to_enter, to_line, state, web)
-    if turn == GIVE and (to_line >= 0.0 or at_light or feels):
+    is_late = decides_again(v, other, m, strand, to_enter, to_line, state, web)
+    if turn == GIVE and (to_line >= 0.0 or at_light or is_late):
         if has_time(v, other, m, strand, to_enter, its_way, its_time, to_line, top, state, parameter, number, entity, web, drivers, mind):
             return False
-        if feels and is_gone(v, m, to_enter, its_time, state[V_X, other], top, state, parameter, web, drivers, mind):
+        if is_late and is_gone(v, m, to_enter, its_time, state[V_X, other], top, state, parameter, web, drivers, mind):
             return False
-        if at_light or feels:
+        if at_light or is_late:
             follow(v, number[other], to_enter, 0.0, state, drivers, mind)
-        return not (at_light or feels)
+        return not (at_light or is_late)
     if web.right[strand] == ALL_WAY_STOP and to_line >= 0.0 and not is_committed:
         return state[V_X, other] < STANDING and has_stood_longer(other, v, entity, mind)
     return comes_first(v, other, m, to_enter, its_way, its_time, to_line, state, parameter, number, entity, web, drivers, mind)
 
 
 @inlined
-def feels_the_way(v, m, to_enter, to_line, state, web):
-    """Whether v is beyond its line, since a corner has let it see no sooner, and can stop before it comes in somebody's way."""
-    return to_line < 0.0 and has_corner(m, web) and driver.can_stop(state[V_X, v], to_enter - READY)
+def decides_again(v, other, m, strand, to_enter, to_line, state, web):
+    """Whether v, beyond its line, decides once more before it comes in somebody's way, where it can still stop: a corner has let it see
+    no sooner, or it has come to a stand there behind somebody, and the other drives. Of two who stand there, none waits for the other."""
+    may = has_corner(m, web) or state[V_X, v] < STANDING <= state[V_X, other]
+    return to_line < 0.0 and web.right[strand] != LANE and may and driver.can_stop(state[V_X, v], to_enter - READY)
 
 
 @inlined
@@ -429,7 +433,10 @@ def comes_first(v, other, m, to_enter, its_way, its_time, to_line, state, parame
     if is_first and not sets_off_before(v, other, its_way, state, drivers, mind):
         return False
     if web.shape[m] == ALONG:
-        let_in(v, number[other], to_enter - its_way - parameter[LENGTH, other], state[V_X, other], state, drivers, mind)
+        if web.turn[m] == EQUAL and state[V_X, v] < CRAWL:  # he moves up to where the ways run together, and takes his turn there
+            follow(v, number[other], to_enter, 0.0, state, drivers, mind)
+        else:
+            let_in(v, number[other], to_enter - its_way - parameter[LENGTH, other], state[V_X, other], state, drivers, mind)
         return False
     length = web.span[ITS_LEAVE, m] - web.span[ITS_ENTER, m] + parameter[LENGTH, other]
     if its_time + leaves_in(other, length, state) + AFTER < own_time:
