@@ -49,11 +49,15 @@ def runs(
     db: Db = DEFAULT_DB,
     limit: Annotated[int, typer.Option(help="How many, newest first.", min=1, max=1_000_000)] = 50,
     out: Annotated[Path | None, typer.Option("--out", help="A file for the whole table: .csv, .parquet, .json.")] = None,
+    column: Annotated[
+        list[str] | None,
+        typer.Option("--column", help="With --out: a channel in one number, such as leader.speed.max or leader.speed.mean@5..20."),
+    ] = None,
     as_json: AsJson = False,
 ) -> None:
     """Lists the runs of the database."""
     if out is not None:
-        write_ledger(existing(db), out)
+        write_ledger(existing(db), out, column or [])
         return
     rows = existing(db).select(limit=limit)
     if as_json:
@@ -69,7 +73,7 @@ def runs(
     )  # fmt: skip
 
 
-def write_ledger(found, out: Path) -> None:
+def write_ledger(found, out: Path, channels: list[str]) -> None:
     """Writes the table of runs, in the form that the ending of the file says."""
     from studio.store.ledger import FORMS, ledger
 
@@ -78,7 +82,7 @@ def write_ledger(found, out: Path) -> None:
         raise StoreError(
             f"{out} is of no form.", [Problem("--out", "has an unknown ending", out.suffix, ", ".join(f".{each}" for each in FORMS))]
         )
-    data = ledger(found, form)
+    data = ledger(found, form, channels=channels)
     put(out, lambda file: file.write(data))
     print(f"{out}: the table of runs, {len(data) / 1e6:.1f} MB")
 

@@ -367,6 +367,30 @@ class Aggregated(BaseModel):
     aggregates: list[Aggregate]
 
 
+class Cell(BaseModel):
+    """A channel of one run in one number."""
+
+    run: int
+    value: float | None = Field(description="in the unit of the channel; null where there is none")
+    unit: str
+    time: float | None = Field(description="[s] when it was, of what was at a time")
+    why: str = Field(description="why there is none; empty where there is one")
+
+
+class ChannelColumn(BaseModel):
+    """A channel in one number, run by run, as far as that has been worked out."""
+
+    name: str = Field(description="what it is called in exports and by the command")
+    channel: str
+    kind: Literal["min", "max", "mean", "p5", "p95", "at_event"]
+    begin: float | None = Field(description="[s] from then on; null from the beginning")
+    end: float | None = Field(description="[s] until then; null to the end")
+    event: str = Field(description="the kind of events at whose first it is; empty for other numbers")
+    meaning: str = Field(description="how the number is made, in words")
+    cells: list[Cell] = Field(description="newest run first")
+    lacking: int = Field(description="runs that are over and have not been worked out")
+
+
 class Run(BaseModel):
     """A run in the database; `parameters` are those that were set, by path."""
 
