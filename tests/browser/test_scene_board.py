@@ -72,6 +72,9 @@ class Board:
         """Until a step is the last."""
         expect(self.page.get_by_role("button", name=f"Undo: {name}")).to_be_enabled()
 
+    def corners(self):
+        return yaml.safe_load(self.path.read_text())["script"]["area"]["when"]["area"]["corners"]
+
     def along(self):
         return yaml.safe_load(self.path.read_text())["vehicles"]["first"]["position"]["along"]
 
@@ -152,6 +155,60 @@ def test_a_cone_is_placed_by_a_click_and_deleted(board):
     page.keyboard.press("Control+z")
     expect(board.row("cone")).to_have_count(0)
     assert board.path.read_bytes() == before
+
+
+def test_a_rectangle_chooses_several(board):
+    """Drawn with Shift, since the drag alone is the camera's; a broken one chooses nothing."""
+    page = board.page
+    page.mouse.click(*board.on_screen(left=-9.0, height=0.0))
+    expect(board.row("first", pressed=False)).to_be_visible()
+    x, y = board.on_screen(height=0.0)
+    page.keyboard.down("Shift")
+    try:
+        page.mouse.move(x - 150, y - 120)
+        expect(board.marks).not_to_have_attribute("aria-label", re.compile("under the pointer"))
+        page.mouse.down()
+        page.mouse.move(x + 60, y + 60)
+        expect(page.get_by_test_id("rectangle-in-scene")).to_be_visible()
+        page.mouse.move(x + 150, y + 120)
+        page.mouse.up()
+    finally:
+        page.keyboard.up("Shift")
+    expect(board.row("first", pressed=True)).to_be_visible()
+    expect(page.get_by_test_id("rectangle-in-scene")).to_be_hidden()
+
+
+def test_the_menu_behind_the_right_button(board):
+    page = board.page
+    page.mouse.click(*board.on_screen(), button="right")
+    expect(page.get_by_role("menu", name="What to do with first")).to_be_visible()
+    page.keyboard.press("Escape")
+
+
+def test_an_area_is_drawn_and_reshaped(board):
+    page = board.page
+    page.get_by_role("button", name="Add", exact=True).click()
+    page.get_by_role("menuitem", name="Area with a trigger", exact=True).click()
+    corners = [(3.0, -6.0), (9.0, -6.0), (9.0, -10.0)]
+    for ahead, left in corners:
+        page.mouse.click(*board.on_screen(ahead, left, 0.0))
+    page.keyboard.press("Enter")
+    board.done("Add area")
+    before = board.corners()
+    assert len(before) == 3
+    start, end = board.on_screen(3.0, -6.0, 0.0), board.on_screen(3.0, -9.0, 0.0)
+    page.mouse.move(*start)
+    page.mouse.down()
+    page.mouse.move((start[0] + end[0]) / 2, (start[1] + end[1]) / 2)
+    page.mouse.move(*end)
+    page.mouse.up()
+    board.done("Reshape area")
+    after = board.corners()
+    assert after[1:] == before[1:]
+    assert ((after[0][0] - before[0][0]) ** 2 + (after[0][1] - before[0][1]) ** 2) ** 0.5 == pytest.approx(3.0, abs=0.3)
+    for name in ("Reshape area", "Add area"):
+        page.keyboard.press("Control+z")
+        expect(page.get_by_role("button", name=f"Redo: {name}")).to_be_enabled()
 
 
 def test_the_scene_rests(board):
