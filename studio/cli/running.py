@@ -1,5 +1,6 @@
 """Commands about runs: make one, list, show and compare them, check what is to be run."""
 
+import os
 import sys
 from collections.abc import Callable
 from dataclasses import asdict
@@ -34,14 +35,36 @@ def run(
     loaded = job.load(scenario, changes(set_))
     tell_migrated(loaded)
     compile_first()
-    with progress("starting") as report:
-        result = job.run(loaded, seed=seed, runs=open_runs(db), parent=parent, progress=report)
+    kept = open_runs(db)
+    try:
+        with progress("starting") as report:
+            result = job.run(loaded, seed=seed, runs=kept, parent=parent, progress=report)
+    except KeyboardInterrupt:
+        print(interrupted(kept, scenario, db), file=sys.stderr)
+        raise typer.Exit(INTERRUPTED) from None
     if as_json:
         print_json(run_json(result.row) | events_json(result.record.happenings))
     else:
         print_run(result.row)
     if result.status == "failed":
         raise typer.Exit(1)
+
+
+INTERRUPTED = 130  # as a shell tells of a command that Ctrl+C has ended: 128 and the number of the signal
+
+
+def interrupted(kept, scenario: Path, db: Path) -> str:
+    """What is there of the run of this process that was broken off, and how to go on."""
+    from studio.store import owner
+
+    mine = [os.getpid(), owner.mark(os.getpid())]
+    (found,) = kept.rows("select max(run) as run from runs where process = ? and process_mark is ?", mine)
+    again = f"studio run {scenario}"
+    if found["run"] is None:
+        return f"Interrupted before the run began: nothing was kept. Run it again: {again}"
+    row, where = kept.find(found["run"]), "" if db == DEFAULT_DB else f" --db {db}"
+    what = f"what was recorded until {row.sim_time_s:g} s is kept, and measured" if row.sim_time_s else "it had recorded nothing"
+    return f"Interrupted: run {row.run} is {row.status}, {what}. Look at it: studio show {row.run}{where}; run it again: {again}"
 
 
 @commands.command()

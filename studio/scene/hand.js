@@ -12,6 +12,7 @@
   const STILL = 5; // [px] that a click may move
   const hand = { ask: null, look };
   const bridge = () => window.__studioBridge;
+  const LATE = 100; // [ms] a page that is later than this is busy
   const TREMBLES = 10; // [px] that a finger may move meanwhile
   const RESTS = 550; // [ms] until a finger is the button at the right
   let held = false, pressed = null, first = null, timer = 0, passing = false;
@@ -68,13 +69,20 @@
       return true;
     }
     first = event;
+    rest(RESTS, event);
+    return false;
+  }
+
+  // a busy page may not have heard yet that the finger has moved: it is given time for that
+  function rest(wait, event) {
+    const due = performance.now() + wait;
     timer = setTimeout(() => {
+      if (performance.now() > due + LATE) return rest(RESTS, event);
       if (held) ask("cancel", event);
       held = false;
       pressed = null;
       ask("menu", event);
-    }, RESTS);
-    return false;
+    }, wait);
   }
 
   window.addEventListener("pointerdown", (event) => {

@@ -31,6 +31,7 @@ class Compiling(BaseModel):
     of: int = Field(description="functions in all")
     seconds: float = Field(description="since it began [s]")
     latest: str = Field(description="the function that was compiled last")
+    since: float = Field(description="[s] since that was done, or since it began")
 
 
 class Info(BaseModel):
@@ -543,6 +544,13 @@ class Known(BaseModel):
     lost: list[Lost] = Field(description="messages since the newest that had come")
 
 
+class Overseer(BaseModel):
+    """A unit without a vehicle that guided one of them: what it had told that one, and what it knew about the other."""
+
+    told: Known
+    knew: Known
+
+
 class Wheel(BaseModel):
     """A tyre at its limit."""
 
@@ -587,6 +595,7 @@ class Explanation(BaseModel):
     faults: list[Harmed]
     not_recorded: list[str] = Field(description='channels that the run has not kept, and "sensors" when it lacks their readings')
     unknown: list[str] = Field(description="units of which nothing was recorded")
+    overseers: list[Overseer] = Field(description="who beside the road knew for them")
     without_tyres: list[str] = Field(description="units that are light vehicles, of whose tyres nothing is known")
     lines: list[str]
 

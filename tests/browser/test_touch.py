@@ -25,8 +25,13 @@ class Fingers:
         points = [{"x": x, "y": y, "id": number} for number, (x, y) in enumerate(places)]
         self.protocol.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
 
+    def push(self, start, right=0, down=0):
+        """One finger from a place, by the browser itself: it does not rest on the way, however busy the machine is."""
+        way = {"x": start[0], "y": start[1], "xDistance": right, "yDistance": down, "preventFling": True, "gestureSourceType": "touch"}
+        self.protocol.send("Input.synthesizeScrollGesture", way)
+
     def drag(self, *ways):
-        """Each finger from one place to another, all at once."""
+        """Several fingers, each from one place to another, all at once."""
         for step in range(6):
             places = [(a + (c - a) * step / 5, b + (d - b) * step / 5) for (a, b), (c, d) in ways]
             self.told("touchMove" if step else "touchStart", *places)
@@ -79,7 +84,7 @@ def test_1_the_plan_of_the_editor(studio):
 
     x, y = spot(page, "vehicles.first")
     before = yaml.safe_load(path.read_text())["vehicles"]["first"]["position"]["along"]
-    fingers.drag(((x, y), (x, y - 60)))  # to the north, where it drives
+    fingers.push((x, y), down=-60)  # to the north, where it drives
     expect(page.get_by_role("button", name="Undo: Move first")).to_be_enabled()
     assert yaml.safe_load(path.read_text())["vehicles"]["first"]["position"]["along"] > before + 3
 
@@ -126,5 +131,5 @@ def test_3_splitters(studio):
     expect(bar).to_be_visible()
     x, y = middle(bar)
     before, is_upright = bar.get_attribute("aria-valuenow"), bar.get_attribute("aria-orientation") == "vertical"
-    fingers.drag(((x, y), (x - 60, y) if is_upright else (x, y - 60)))
+    fingers.push((x, y), **({"right": -60} if is_upright else {"down": -60}))
     expect(bar).not_to_have_attribute("aria-valuenow", before)

@@ -1596,7 +1596,7 @@ export interface paths {
         put?: never;
         /**
          * Undo
-         * @description Takes the last step back, whoever has done it.
+         * @description Takes the last step back, whoever has done it; where there is none, nothing happens.
          */
         post: operations["undo_api_scenarios__scenario__editing_undo_post"];
         delete?: never;
@@ -1616,7 +1616,7 @@ export interface paths {
         put?: never;
         /**
          * Redo
-         * @description Does the step again that was undone last.
+         * @description Does the step again that was undone last; where there is none, nothing happens.
          */
         post: operations["redo_api_scenarios__scenario__editing_redo_post"];
         delete?: never;
@@ -2038,6 +2038,11 @@ export interface components {
              * @description the function that was compiled last
              */
             latest: string;
+            /**
+             * Since
+             * @description [s] since that was done, or since it began
+             */
+            since: number;
         };
         /**
          * Course
@@ -2388,6 +2393,11 @@ export interface components {
              * @description units of which nothing was recorded
              */
             unknown: string[];
+            /**
+             * Overseers
+             * @description who beside the road knew for them
+             */
+            overseers: components["schemas"]["Overseer"][];
             /**
              * Without Tyres
              * @description units that are light vehicles, of whose tyres nothing is known
@@ -4282,6 +4292,14 @@ export interface components {
              */
             value?: unknown;
             layout?: components["schemas"]["Layout"] | null;
+        };
+        /**
+         * Overseer
+         * @description A unit without a vehicle that guided one of them: what it had told that one, and what it knew about the other.
+         */
+        Overseer: {
+            told: components["schemas"]["Known"];
+            knew: components["schemas"]["Known"];
         };
         /**
          * ParameterDifference

@@ -11,6 +11,8 @@ export type Pair = readonly [Point, Point];
 /** How long a finger rests until it is the button at the right [ms], and by how much it may tremble meanwhile [px]. */
 const RESTS = 550;
 export const TREMBLE = 10;
+/** A page that is later than this is busy [ms]. */
+const LATE = 100;
 
 export class Fingers {
   private readonly down = new Map<number, Point>();
@@ -28,7 +30,13 @@ export class Fingers {
     this.down.set(id, at);
     this.start = at;
     clearTimeout(this.timer);
-    if (this.count === 1) this.timer = setTimeout(() => this.onRest(at), RESTS);
+    if (this.count === 1) this.wait(RESTS, () => this.onRest(at));
+  }
+
+  /** Then does it, unless the finger moves meanwhile; of a busy page it is not known whether it has, so that is given time to hear of it. */
+  private wait(time: number, act: () => void): void {
+    const due = performance.now() + time;
+    this.timer = setTimeout(() => (performance.now() > due + LATE ? this.wait(RESTS, act) : act()), time);
   }
 
   /** One moves: where the two were and are, if there are two. */
