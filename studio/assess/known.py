@@ -83,15 +83,12 @@ class Overseer(NamedTuple):
     def text(self) -> str:
         """Both in a sentence."""
         by, unit, about = self.told.about, self.told.unit, self.knew.about
-        return (
-            f"{by} knew of {about} by {self.knew.source}, {self.knew.age:.2f} s old, "
-            f"and had told {unit} what to do by {self.told.source}, {self.told.age:.2f} s old"
-        )
+        heard = f"which {unit} had heard by {self.told.source}, {self.told.age:.2f} s old"
+        return f"{by}, {heard}, knew {about} by {self.knew.source}, {self.knew.age:.2f} s old"
 
 
 def overseers(record: Record, unit: str, about: str, when: float) -> Iterator[Overseer]:
-    """Who, beside the road, had told a unit something and knew another, both by messages of the last seconds: those two need not hear each
-    other."""
+    """Who beside the road had told a unit something and knew another, by messages of the last seconds: these need not hear each other."""
     for post in record.messages.units:
         if post in record.vehicles or post in (unit, about):
             continue

@@ -160,6 +160,7 @@ def test_a_cone_is_placed_by_a_click_and_deleted(board):
 def test_a_rectangle_chooses_several(board):
     """Drawn with Shift, since the drag alone is the camera's; a broken one chooses nothing."""
     page = board.page
+    page.get_by_role("button", name="Select", exact=True).click()
     page.mouse.click(*board.on_screen(left=-9.0, height=0.0))
     expect(board.row("first", pressed=False)).to_be_visible()
     x, y = board.on_screen(height=0.0)

@@ -39,7 +39,7 @@ export function ColumnMenu({ columns, arrangement, onArrange, onAdd }: MenuProps
     ({ id, title, name }) => id !== "run" && `${title} ${name}`.toLowerCase().includes(query.toLowerCase()),
   );
   return (
-    <Popover opened={isOpen} onChange={setOpen} width={370} position="bottom-end" withArrow shadow="md" trapFocus>
+    <Popover opened={isOpen} onChange={setOpen} width={420} position="bottom-end" withArrow shadow="md" trapFocus>
       <Popover.Target>
         <Button size="xs" variant="default" leftSection={<Icon name="columns" size={14} />} onClick={() => setOpen(!isOpen)}>
           Columns{hidden ? ` (${hidden} hidden)` : ""}
@@ -59,7 +59,7 @@ export function ColumnMenu({ columns, arrangement, onArrange, onAdd }: MenuProps
             As it was
           </Button>
         </Group>
-        <ScrollArea h={320} type="auto">
+        <ScrollArea h={320} type="auto" offsetScrollbars>
           {shown.map((column) => (
             <Entry key={column.id} column={column} columns={columns} arrangement={arrangement} onArrange={onArrange} />
           ))}
@@ -96,6 +96,7 @@ function Entry({ column, columns, arrangement, onArrange }: Props & { column: Co
       <Checkbox
         size="xs"
         flex={1}
+        miw={0}
         label={name}
         checked={!arrangement.hidden.includes(column.id)}
         onChange={() => onArrange(toggled(arrangement, column.id))}
