@@ -67,10 +67,12 @@ def spot(page, path):
     return box["x"] + box["width"] / 2, box["y"] + box["height"] + 8
 
 
-def apart(page):
-    """How far the two cars are from each other on the screen [px]."""
-    (x, y), (u, v) = spot(page, "vehicles.first"), spot(page, "vehicles.second")
-    return ((x - u) ** 2 + (y - v) ** 2) ** 0.5
+def scale(page):
+    """How large a metre is on the plan [px]: by its bar, which has a round length."""
+    bar = page.get_by_role("application").locator("span[style*='width']").first
+    number, unit = bar.inner_text().split()
+    width = float(re.search(r"width: ([\d.]+)px", bar.get_attribute("style")).group(1))
+    return width / (float(number) * {"cm": 0.01, "m": 1.0, "km": 1000.0}[unit])
 
 
 def test_1_the_plan_of_the_editor(studio):
@@ -90,11 +92,13 @@ def test_1_the_plan_of_the_editor(studio):
 
     box = page.get_by_role("application").bounding_box()
     x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
-    held, text = apart(page), path.read_text()
+    before, text = scale(page), path.read_text()
     fingers.drag(((x - 40, y), (x - 80, y)), ((x + 40, y), (x + 80, y)))
-    until(lambda: apart(page) == pytest.approx(2 * held, rel=0.1), "twice the size")
+    until(lambda: scale(page) == pytest.approx(2 * before, rel=0.02), "twice the size")
     assert path.read_text() == text  # what lay under the fingers was not dragged
 
+    page.keyboard.press("f")  # to what is chosen
+    drawn(page)
     fingers.told("touchStart", spot(page, "vehicles.first"))
     menu = page.get_by_role("menu", name="What to do with first")
     expect(menu).to_be_visible()
