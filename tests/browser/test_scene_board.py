@@ -72,9 +72,6 @@ class Board:
         """Until a step is the last."""
         expect(self.page.get_by_role("button", name=f"Undo: {name}")).to_be_enabled()
 
-    def corners(self):
-        return yaml.safe_load(self.path.read_text())["script"]["area"]["when"]["area"]["corners"]
-
     def along(self):
         return yaml.safe_load(self.path.read_text())["vehicles"]["first"]["position"]["along"]
 
@@ -184,32 +181,6 @@ def test_the_menu_behind_the_right_button(board):
     page.mouse.click(*board.on_screen(), button="right")
     expect(page.get_by_role("menu", name="What to do with first")).to_be_visible()
     page.keyboard.press("Escape")
-
-
-def test_an_area_is_drawn_and_reshaped(board):
-    page = board.page
-    page.get_by_role("button", name="Add", exact=True).click()
-    page.get_by_role("menuitem", name="Area with a trigger", exact=True).click()
-    corners = [(3.0, -6.0), (9.0, -6.0), (9.0, -10.0)]
-    for ahead, left in corners:
-        page.mouse.click(*board.on_screen(ahead, left, 0.0))
-    page.keyboard.press("Enter")
-    board.done("Add area")
-    before = board.corners()
-    assert len(before) == 3
-    start, end = board.on_screen(3.0, -6.0, 0.0), board.on_screen(3.0, -9.0, 0.0)
-    page.mouse.move(*start)
-    page.mouse.down()
-    page.mouse.move((start[0] + end[0]) / 2, (start[1] + end[1]) / 2)
-    page.mouse.move(*end)
-    page.mouse.up()
-    board.done("Reshape area")
-    after = board.corners()
-    assert after[1:] == before[1:]
-    assert ((after[0][0] - before[0][0]) ** 2 + (after[0][1] - before[0][1]) ** 2) ** 0.5 == pytest.approx(3.0, abs=0.3)
-    for name in ("Reshape area", "Add area"):
-        page.keyboard.press("Control+z")
-        expect(page.get_by_role("button", name=f"Redo: {name}")).to_be_enabled()
 
 
 def test_the_scene_rests(board):
