@@ -1,4 +1,4 @@
-"""The page under fingers, on an upright tablet: things chosen, dragged and asked for their menu, plan and charts spread by two fingers."""
+"""The plan of the editor under fingers, on an upright tablet: things chosen and dragged, the plan spread by two fingers."""
 
 import re
 import shutil
@@ -40,7 +40,7 @@ class Fingers:
 
 @pytest.fixture(scope="module")
 def studio(tmp_path_factory, sample):
-    """A page that is touched, its fingers, a client, and the scenario's file; a run of it is over."""
+    """A page that is touched, its fingers, and the scenario's file."""
     folder = tmp_path_factory.mktemp("touch")
     maps = folder / "scenarios" / "maps"
     maps.mkdir(parents=True)
@@ -48,10 +48,8 @@ def studio(tmp_path_factory, sample):
     path = folder / "scenarios" / f"{ID}.yaml"
     shutil.copy(sample.with_name(f"{ID}.yaml"), path)
     with browser() as opened, served(folder) as (client, _, _):
-        client.post("/api/runs", json={"scenario": ID, "set": {"clock.duration": 4}}).raise_for_status()
-        until(lambda: client.get("/api/runs/1").json()["status"] == "done", "the end of the run")
         page, complaints = watched(opened, viewport=TABLET, has_touch=True, base_url=str(client.base_url))
-        yield page, Fingers(page), client, path
+        yield page, Fingers(page), path
         assert complaints == []
         opened.close()
 
@@ -75,8 +73,8 @@ def scale(page):
     return width / (float(number) * {"cm": 0.01, "m": 1.0, "km": 1000.0}[unit])
 
 
-def test_1_the_plan_of_the_editor(studio):
-    page, fingers, _, path = studio
+def test_the_plan_of_the_editor(studio):
+    page, fingers, path = studio
     page.goto(f"/edit/{ID}")
     expect(name_of(page, "vehicles.first")).to_be_visible()
     drawn(page)
@@ -96,44 +94,3 @@ def test_1_the_plan_of_the_editor(studio):
     fingers.drag(((x - 40, y), (x - 80, y)), ((x + 40, y), (x + 80, y)))
     until(lambda: scale(page) == pytest.approx(2 * before, rel=0.02), "twice the size")
     assert path.read_text() == text  # what lay under the fingers was not dragged
-
-    page.keyboard.press("f")  # to what is chosen
-    drawn(page)
-    fingers.told("touchStart", spot(page, "vehicles.first"))
-    menu = page.get_by_role("menu", name="What to do with first")
-    expect(menu).to_be_visible()
-    fingers.told("touchEnd")
-    drawn(page)
-    expect(menu).to_be_visible()
-    page.keyboard.press("Escape")
-
-
-def test_2_charts_and_tables(studio):
-    page, fingers, *_ = studio
-    page.goto("/runs")
-    page.touchscreen.tap(*middle(page.locator("tr[data-run='1'] td").nth(2)))
-    expect(page).to_have_url(re.compile("/runs/1"))
-    chart = page.locator(".u-over").first
-    chart.scroll_into_view_if_needed()
-    x, y = middle(chart)
-    fingers.drag(((x - 30, y), (x - 90, y)), ((x + 30, y), (x + 90, y)))
-    whole = page.get_by_role("button", name="Show all of it")
-    expect(whole.first).to_be_visible()
-    fingers.drag(((x - 90, y), (x - 10, y)), ((x + 90, y), (x + 10, y)))
-    expect(whole).to_have_count(0)
-
-
-def middle(found):
-    box = found.bounding_box()
-    return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
-
-
-def test_3_splitters(studio):
-    page, fingers, *_ = studio
-    page.goto(f"/?scenario={ID}")
-    bar = page.get_by_role("separator").first
-    expect(bar).to_be_visible()
-    x, y = middle(bar)
-    before, is_upright = bar.get_attribute("aria-valuenow"), bar.get_attribute("aria-orientation") == "vertical"
-    fingers.push((x, y), **({"right": -60} if is_upright else {"down": -60}))
-    expect(bar).not_to_have_attribute("aria-valuenow", before)

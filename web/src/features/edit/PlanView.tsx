@@ -117,12 +117,14 @@ export function PlanView(props: Props) {
     return { x: event.clientX - box.left, y: event.clientY - box.top };
   };
 
+  const hasRested = useRef(false);
   const rest = useRef<(at: Point) => void>(undefined);
   rest.current = (at) => {
     if (!view) return;
     const on = toGround(view, size, at);
     const { left, top } = (place.current as HTMLElement).getBoundingClientRect();
     setPress({ is: "fingers" });
+    hasRested.current = true;
     props.onMenu({ x: left + at.x, y: top + at.y }, on, hit(items, on, FINGER / view.scale));
   };
   const [fingers] = useState(() => new Fingers((at) => rest.current?.(at)));
@@ -130,6 +132,7 @@ export function PlanView(props: Props) {
   const down = (event: PointerEvent) => {
     if (!view || (event.target as HTMLElement).closest("[data-over]")) return;
     const isFinger = event.pointerType === "touch";
+    hasRested.current = false;
     if (isFinger) fingers.press(event.pointerId, local(event));
     if (isFinger && fingers.count > 1) return setPress({ is: "fingers" });
     (event.currentTarget as HTMLElement).focus({ preventScroll: true });
@@ -222,6 +225,8 @@ export function PlanView(props: Props) {
         setPress(undefined);
       }}
       onPointerLeave={() => setPointer(undefined)}
+      // The mouse that the browser plays after a finger would close the menu that the finger has opened.
+      onTouchEnd={(event) => hasRested.current && event.preventDefault()}
       onWheel={wheel}
       onDoubleClick={(event) => {
         if (tool.is !== "select") return props.onEnough();
