@@ -87,10 +87,14 @@ def without_code(path: Path) -> list[str]:
     return [f"{path.parent.name}.{path.stem}.{name}" for name in compiled_functions(path) if name not in kept]
 
 
-def latest() -> str:
-    """The function that was compiled last, as file.function; "" when there is none."""
-    kept = [index for path in files() for index in indices(path)]
-    return max(kept, key=lambda index: index.stat().st_mtime).name.partition("-")[0] if kept else ""
+def latest() -> Path | None:
+    """What numba keeps of the function that was compiled last; None when there is none."""
+    return max((index for path in files() for index in indices(path)), key=lambda index: index.stat().st_mtime, default=None)
+
+
+def said(index: Path | None) -> str:
+    """The function that an index is about, as file.function; "" for none."""
+    return index.name.partition("-")[0] if index else ""
 
 
 def indices(path: Path) -> Iterator[Path]:
@@ -108,12 +112,13 @@ def name_of(index: Path) -> str:
 
 @dataclass(frozen=True)
 class Progress:
-    """How far it is: functions done, of how many, seconds since it began, the function that was compiled last."""
+    """How far it is: functions done, of how many, seconds since it began, the function that was compiled last, and seconds since that."""
 
     done: int
     of: int
     seconds: float
     latest: str
+    since: float
 
 
 @dataclass
@@ -144,7 +149,9 @@ class Warmup:
     def progress(self) -> Progress:
         """How far all processes of this machine together are."""
         of = sum(len(compiled_functions(path)) for path in files())
-        return Progress(of - len(missing()), of, time.monotonic() - self.began, latest())
+        seconds, last = time.monotonic() - self.began, latest()
+        age = max(time.time() - last.stat().st_mtime, 0.0) if last else seconds
+        return Progress(of - len(missing()), of, seconds, said(last), min(seconds, age))
 
     def wait(self, tell: Callable[[Progress], None] = lambda progress: None) -> None:
         """Until it is over; raises RunError when a process has failed."""

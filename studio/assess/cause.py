@@ -20,7 +20,7 @@ import numpy as np
 
 from studio.assess.adhesion import CHANNELS, WHEELS, light_among, nothing_known, sliding, used
 from studio.assess.danger import HARD, NEAR_MISSES, stretches
-from studio.assess.known import MEMORY, PLACES, Known, known
+from studio.assess.known import MEMORY, PLACES, Known, Overseer, known, overseers
 from studio.execution.happening import Happening
 from studio.execution.record import SAME_TIME, Record
 from studio.world.commander import PARTS
@@ -107,6 +107,7 @@ class Explanation:
     not_recorded: tuple[str, ...] = ()
     unknown: tuple[str, ...] = ()
     without_tyres: tuple[str, ...] = ()
+    overseers: tuple[Overseer, ...] = ()
 
     def as_json(self) -> dict[str, Any]:
         """Plain data, as scripts read it."""
@@ -119,6 +120,7 @@ class Explanation:
             "known": [each.as_json() for each in self.known],
             "commanded_by": self.commanded_by,
             "asked": [vars(each) for each in self.asked],
+            "overseers": [{"told": each.told.as_json(), "knew": each.knew.as_json()} for each in self.overseers],
             "tyre_at_limit": [vars(each) for each in self.tyre_at_limit],
             "faults": [vars(each) for each in self.faults],
             "not_recorded": list(self.not_recorded),
@@ -151,7 +153,12 @@ class Explanation:
         elif {"sensors", *PLACES} & set(self.not_recorded):
             yield f"what {one} knew of {other} by sensors was not recorded"
         elif not found:
-            yield f"{one} knew nothing of {other} in the {MEMORY:g} s before"
+            yield from (each.text for each in self.overseers if (each.told.unit, each.knew.about) == (one, other))
+            yield f"{one} {'itself ' if self.is_guided(one, other) else ''}knew nothing of {other} in the {MEMORY:g} s before"
+
+    def is_guided(self, one: str, other: str) -> bool:
+        """Whether somebody beside the road knew the other one for it."""
+        return any((each.told.unit, each.knew.about) == (one, other) for each in self.overseers)
 
     def of_command(self) -> Iterator[str]:
         """Who commanded."""
@@ -195,6 +202,7 @@ def explained(record: Record, event: Happening, greatest: Mapping[str, float]) -
         not_recorded=lacking(record),
         unknown=tuple(each for each in event.units if each not in (*record.vehicles, *record.brought)),
         without_tyres=tuple(each for each in light_among(record) if each in event.units),
+        overseers=tuple(each for one, other in pairs for each in overseers(record, one, other, began)),
     )
 
 

@@ -73,6 +73,36 @@ def lost_text(lost: tuple[Lost, ...]) -> str:
     return f"; lost since: {count}, the last of {last.time:.2f} s ({last.why})"
 
 
+class Overseer(NamedTuple):
+    """A unit without a vehicle that guides: what it had told somebody, and what it knew about another, by the newest messages of both."""
+
+    told: Known
+    knew: Known
+
+    @property
+    def text(self) -> str:
+        """Both in a sentence."""
+        by, unit, about = self.told.about, self.told.unit, self.knew.about
+        heard = f"which {unit} had heard by {self.told.source}, {self.told.age:.2f} s old"
+        return f"{by}, {heard}, knew {about} by {self.knew.source}, {self.knew.age:.2f} s old"
+
+
+def overseers(record: Record, unit: str, about: str, when: float) -> Iterator[Overseer]:
+    """Who beside the road had told a unit something and knew another, by messages of the last seconds: these need not hear each other."""
+    for post in record.messages.units:
+        if post in record.vehicles or post in (unit, about):
+            continue
+        told, knew = (newest(heard(record, *pair, when)) for pair in ((unit, post), (post, about)))
+        if told and knew:
+            yield Overseer(told, knew)
+
+
+def newest(found: Iterator[Known]) -> Known | None:
+    """The newest of what had come in the last seconds."""
+    fresh = [each for each in found if each.age is not None and each.age <= MEMORY]
+    return min(fresh, key=lambda each: each.age or 0.0, default=None)
+
+
 def known(record: Record, unit: str, about: str, sample: int, when: float) -> Iterator[Known]:
     """Everything that a unit knew about a vehicle, or whatever the script has brought: by its sensors, then by messages.
 

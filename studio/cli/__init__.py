@@ -15,7 +15,8 @@ from studio.cli import deciding, keeping, kind, machine, mapping, running, servi
 from studio.errors import Problem, RunError, StoreError, StudioError
 
 app = typer.Typer(
-    help="Cooperative ADAS Studio. Without a command it serves the page.",
+    help="Cooperative ADAS Studio. Without a command it serves the page, and takes the options of `studio serve`: "
+    "--host, --port, --scenarios and what else `studio serve --help` tells.",
     no_args_is_help=False,
     add_completion=False,
     rich_markup_mode=None,

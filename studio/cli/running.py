@@ -1,5 +1,6 @@
 """Commands about runs: make one, list, show and compare them, check what is to be run."""
 
+import os
 import sys
 from collections.abc import Callable
 from dataclasses import asdict
@@ -34,8 +35,13 @@ def run(
     loaded = job.load(scenario, changes(set_))
     tell_migrated(loaded)
     compile_first()
-    with progress("starting") as report:
-        result = job.run(loaded, seed=seed, runs=open_runs(db), parent=parent, progress=report)
+    kept = open_runs(db)
+    try:
+        with progress("starting") as report:
+            result = job.run(loaded, seed=seed, runs=kept, parent=parent, progress=report)
+    except KeyboardInterrupt:
+        print(interrupted(kept, scenario, db), file=sys.stderr)
+        raise typer.Exit(INTERRUPTED) from None
     if as_json:
         print_json(run_json(result.row) | events_json(result.record.happenings))
     else:
@@ -44,16 +50,37 @@ def run(
         raise typer.Exit(1)
 
 
+INTERRUPTED = 130  # as a shell tells of a command that Ctrl+C has ended: 128 and the number of the signal
+
+
+def interrupted(kept, scenario: Path, db: Path) -> str:
+    """What is there of the run of this process that was broken off, and how to go on."""
+    from studio.store import owner
+
+    mine = [os.getpid(), owner.mark(os.getpid())]
+    (found,) = kept.rows("select max(run) as run from runs where process = ? and process_mark is ?", mine)
+    again = f"studio run {scenario}"
+    if found["run"] is None:
+        return f"Interrupted before the run began: nothing was kept. Run it again: {again}"
+    row, where = kept.find(found["run"]), "" if db == DEFAULT_DB else f" --db {db}"
+    what = f"what was recorded until {row.sim_time_s:g} s is kept, and measured" if row.sim_time_s else "it had recorded nothing"
+    return f"Interrupted: run {row.run} is {row.status}, {what}. Look at it: studio show {row.run}{where}; run it again: {again}"
+
+
 @commands.command()
 def runs(
     db: Db = DEFAULT_DB,
     limit: Annotated[int, typer.Option(help="How many, newest first.", min=1, max=1_000_000)] = 50,
     out: Annotated[Path | None, typer.Option("--out", help="A file for the whole table: .csv, .parquet, .json.")] = None,
+    column: Annotated[
+        list[str] | None,
+        typer.Option("--column", help="With --out: a channel in one number, such as leader.speed.max or leader.speed.mean@5..20."),
+    ] = None,
     as_json: AsJson = False,
 ) -> None:
     """Lists the runs of the database."""
     if out is not None:
-        write_ledger(existing(db), out)
+        write_ledger(existing(db), out, column or [])
         return
     rows = existing(db).select(limit=limit)
     if as_json:
@@ -69,7 +96,7 @@ def runs(
     )  # fmt: skip
 
 
-def write_ledger(found, out: Path) -> None:
+def write_ledger(found, out: Path, channels: list[str]) -> None:
     """Writes the table of runs, in the form that the ending of the file says."""
     from studio.store.ledger import FORMS, ledger
 
@@ -78,7 +105,7 @@ def write_ledger(found, out: Path) -> None:
         raise StoreError(
             f"{out} is of no form.", [Problem("--out", "has an unknown ending", out.suffix, ", ".join(f".{each}" for each in FORMS))]
         )
-    data = ledger(found, form)
+    data = ledger(found, form, channels=channels)
     put(out, lambda file: file.write(data))
     print(f"{out}: the table of runs, {len(data) / 1e6:.1f} MB")
 

@@ -12,7 +12,10 @@
   const STILL = 5; // [px] that a click may move
   const hand = { ask: null, look };
   const bridge = () => window.__studioBridge;
-  let held = false, pressed = null;
+  const LATE = 100; // [ms] a page that is later than this is busy
+  const TREMBLES = 10; // [px] that a finger may move meanwhile
+  const RESTS = 550; // [ms] until a finger is the button at the right
+  let held = false, pressed = null, first = null, timer = 0, passing = false;
 
   // a vector of three's frame in that of the scene, which is turned against it
   function fromThree({ x, y, z }) {
@@ -46,7 +49,44 @@
 
   const isOnPicture = ({ target }) => target instanceof HTMLCanvasElement;
 
+  // What a finger holds is let go of, and the camera is told of the finger after all.
+  function release() {
+    if (!held) return;
+    held = false;
+    ask("cancel", first);
+    passing = true;
+    first.target.dispatchEvent(new PointerEvent("pointerdown", first));
+    passing = false;
+  }
+
+  // A second finger makes it the camera's; one that rests is the button at the right. Whether the press is nothing else.
+  function touches(event) {
+    clearTimeout(timer);
+    if (event.pointerType !== "touch" || !isOnPicture(event)) return false;
+    if (!event.isPrimary) {
+      pressed = null;
+      release();
+      return true;
+    }
+    first = event;
+    rest(RESTS, event);
+    return false;
+  }
+
+  // a busy page may not have heard yet that the finger has moved: it is given time for that
+  function rest(wait, event) {
+    const due = performance.now() + wait;
+    timer = setTimeout(() => {
+      if (performance.now() > due + LATE) return rest(RESTS, event);
+      if (held) ask("cancel", event);
+      held = false;
+      pressed = null;
+      ask("menu", event);
+    }, wait);
+  }
+
   window.addEventListener("pointerdown", (event) => {
+    if (passing || touches(event)) return;
     pressed = isOnPicture(event) ? [event.clientX, event.clientY] : null;
     if (event.button !== 0 || !pressed || !ask("down", event)) return;
     held = true;
@@ -55,6 +95,7 @@
   }, true);
 
   window.addEventListener("pointermove", (event) => {
+    if (pressed && Math.hypot(event.clientX - pressed[0], event.clientY - pressed[1]) >= TREMBLES) clearTimeout(timer);
     if (!held && (event.buttons !== 0 || !isOnPicture(event))) return;
     const taken = ask("move", event);
     if (held) take(event);
@@ -62,6 +103,7 @@
   }, true);
 
   window.addEventListener("pointerup", (event) => {
+    clearTimeout(timer);
     const still = pressed && Math.hypot(event.clientX - pressed[0], event.clientY - pressed[1]) < STILL;
     pressed = null;
     if (held) {
@@ -73,6 +115,7 @@
   }, true);
 
   window.addEventListener("pointercancel", (event) => {
+    clearTimeout(timer);
     held = false;
     ask("cancel", event);
   }, true);

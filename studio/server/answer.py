@@ -31,6 +31,7 @@ class Compiling(BaseModel):
     of: int = Field(description="functions in all")
     seconds: float = Field(description="since it began [s]")
     latest: str = Field(description="the function that was compiled last")
+    since: float = Field(description="[s] since that was done, or since it began")
 
 
 class Info(BaseModel):
@@ -367,6 +368,30 @@ class Aggregated(BaseModel):
     aggregates: list[Aggregate]
 
 
+class Cell(BaseModel):
+    """A channel of one run in one number."""
+
+    run: int
+    value: float | None = Field(description="in the unit of the channel; null where there is none")
+    unit: str
+    time: float | None = Field(description="[s] when it was, of what was at a time")
+    why: str = Field(description="why there is none; empty where there is one")
+
+
+class ChannelColumn(BaseModel):
+    """A channel in one number, run by run, as far as that has been worked out."""
+
+    name: str = Field(description="what it is called in exports and by the command")
+    channel: str
+    kind: Literal["min", "max", "mean", "p5", "p95", "at_event"]
+    begin: float | None = Field(description="[s] from then on; null from the beginning")
+    end: float | None = Field(description="[s] until then; null to the end")
+    event: str = Field(description="the kind of events at whose first it is; empty for other numbers")
+    meaning: str = Field(description="how the number is made, in words")
+    cells: list[Cell] = Field(description="newest run first")
+    lacking: int = Field(description="runs that are over and have not been worked out")
+
+
 class Run(BaseModel):
     """A run in the database; `parameters` are those that were set, by path."""
 
@@ -519,6 +544,13 @@ class Known(BaseModel):
     lost: list[Lost] = Field(description="messages since the newest that had come")
 
 
+class Overseer(BaseModel):
+    """A unit without a vehicle that guided one of them: what it had told that one, and what it knew about the other."""
+
+    told: Known
+    knew: Known
+
+
 class Wheel(BaseModel):
     """A tyre at its limit."""
 
@@ -563,6 +595,7 @@ class Explanation(BaseModel):
     faults: list[Harmed]
     not_recorded: list[str] = Field(description='channels that the run has not kept, and "sensors" when it lacks their readings')
     unknown: list[str] = Field(description="units of which nothing was recorded")
+    overseers: list[Overseer] = Field(description="who beside the road knew for them")
     without_tyres: list[str] = Field(description="units that are light vehicles, of whose tyres nothing is known")
     lines: list[str]
 

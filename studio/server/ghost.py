@@ -16,6 +16,8 @@ from studio.server import answer
 from studio.server.frame import looks
 from studio.server.replay import Replay
 
+WITHIN = 0.3  # [m] from the same car, a ghost is in it and not seen
+
 
 @dataclass(frozen=True)
 class Ghost:
@@ -40,15 +42,27 @@ class Ghost:
             found[pose.VISIBLE] = 0.0
         return found
 
-    def links(self, played: Replay, time: float) -> Iterator[answer.LayerLink]:
-        """From each car of the run that is played back at a time [s] to the same one of this, as far as both are there."""
-        own, theirs, number = played.frame(time).poses, self.poses(time), {name: i for i, name in enumerate(played.setting.names)}
+    def seen(self, played: Replay, time: float) -> np.ndarray:
+        """The same poses without those within the same car of the run that is played back, whose colour they would hide."""
+        found = self.poses(time)
+        for ghost, _, distance in self.pairs(played, found, time):
+            found[pose.VISIBLE, ghost] *= distance > WITHIN
+        return found
+
+    def pairs(self, played: Replay, poses: np.ndarray, time: float) -> Iterator[tuple[int, int, float]]:
+        """Number of a ghost, that of the same car of the run that is played back at a time [s], and how far they are apart [m]."""
+        own, number = played.frame(time).poses, {name: i for i, name in enumerate(played.setting.names)}
         for ghost, column in enumerate(self.columns):
             car = number.get(self.replay.setting.names[column])
-            if car is not None and own[pose.VISIBLE, car] and theirs[pose.VISIBLE, ghost]:
-                x, y, z = (float(each) for each in theirs[[pose.X, pose.Y, pose.Z], ghost])
-                distance = hypot(x - own[pose.X, car], y - own[pose.Y, car])
-                yield answer.LayerLink(car=car, run=self.replay.run, color=self.color, x=x, y=y, z=z, distance=distance)
+            if car is not None and own[pose.VISIBLE, car] and poses[pose.VISIBLE, ghost]:
+                yield ghost, car, hypot(*(float(poses[each, ghost]) - float(own[each, car]) for each in (pose.X, pose.Y)))
+
+    def links(self, played: Replay, time: float) -> Iterator[answer.LayerLink]:
+        """From each car of the run that is played back at a time [s] to the same one of this, as far as both are there."""
+        theirs = self.poses(time)
+        for ghost, car, distance in self.pairs(played, theirs, time):
+            x, y, z = (float(each) for each in theirs[[pose.X, pose.Y, pose.Z], ghost])
+            yield answer.LayerLink(car=car, run=self.replay.run, color=self.color, x=x, y=y, z=z, distance=distance)
 
     def told(self) -> dict[str, Any]:
         """For the page."""

@@ -29,6 +29,7 @@ from studio.server.manuscript import manuscript
 from studio.server.news import EndNews, News, RefusedNews
 from studio.server.worker import pace_factor
 from studio.source import code_version
+from studio.store import column as of_channel
 from studio.store import trace
 from studio.store.aggregate import aggregated
 from studio.store.comparison import beside, numbers
@@ -69,6 +70,7 @@ RECORDING: dict[int | str, dict[str, Any]] = {
     }
 }
 MOST_CHOSEN, LONGEST_NUMBER = 10_000, 19  # runs that are named, and digits of each
+MOST_COLUMNS = 50  # channels in one number that one table has
 SOCKET: dict[int | str, dict[str, Any]] = {
     "1XX": {"model": News, "description": "101: a WebSocket from here on; each message is one of the news"}
 }
@@ -261,11 +263,14 @@ def table_of_runs(
     form: Annotated[Form, Query(alias="format")] = "csv",
     scenario: Annotated[str | None, Query(description="only runs of this scenario")] = None,
     runs: Annotated[str, Query(description="only these numbers, separated by commas")] = "",
+    columns: Annotated[
+        tuple[str, ...], Query(description="channels in one number, such as leader.speed.max", max_length=MOST_COLUMNS)
+    ] = (),
 ) -> Response:
-    """The table of runs as a file: parameters, metrics with units, verdicts."""
+    """The table of runs as a file: parameters, metrics with units, verdicts, and channels in one number."""
     where, values = chosen_runs(scenario, runs)
     named = {"Content-Disposition": f'attachment; filename="runs.{form}"'}
-    return Response(ledger(kept, form, where=where, values=values), media_type=LEDGER_MEDIA[form], headers=named)
+    return Response(ledger(kept, form, where=where, values=values, channels=columns), media_type=LEDGER_MEDIA[form], headers=named)
 
 
 def chosen_runs(scenario: str | None, runs: str) -> tuple[str, list[Any]]:
@@ -477,6 +482,43 @@ def aggregates(
 def aggregate_of(found: Aggregate) -> answer.Aggregate:
     """A number with how it is made."""
     return answer.Aggregate(**found._asdict(), meaning=MEANINGS[found.kind])
+
+
+ColumnName = Annotated[
+    str,
+    Query(
+        description="vehicle.quantity.kind, @5..20 between times [s]: leader.speed.max, leader.speed.mean@5..20, leader.speed.at_collision"
+    ),
+]
+
+
+@router.get("/column")
+def channel_column(kept: KeptRuns, name: ColumnName) -> answer.ChannelColumn:
+    """A channel in one number, of every run of which that has been worked out already."""
+    wanted = of_channel.wanted(name)
+    return column_of(kept, wanted, of_channel.kept(kept, wanted))
+
+
+@router.post("/column")
+def fill_channel_column(
+    kept: KeptRuns,
+    name: ColumnName,
+    most: Annotated[int, Query(ge=1, le=of_channel.BATCH, description="so many runs at most")] = of_channel.BATCH,
+) -> answer.ChannelColumn:
+    """Works a channel in one number out of runs of which that has not been done, newest first, and keeps it; only these are returned."""
+    wanted = of_channel.wanted(name)
+    return column_of(kept, wanted, of_channel.fill(kept, wanted, of_channel.lacking(kept, wanted)[:most]))
+
+
+def column_of(kept: Runs, wanted: of_channel.Wanted, cells: list[of_channel.Cell]) -> answer.ChannelColumn:
+    """A column as it is told."""
+    return answer.ChannelColumn(
+        **wanted._asdict(),
+        name=wanted.name,
+        meaning=MEANINGS[wanted.kind],
+        cells=[answer.Cell(**each._asdict()) for each in cells],
+        lacking=len(of_channel.lacking(kept, wanted)),
+    )
 
 
 @router.get("/live")

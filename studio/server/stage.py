@@ -56,7 +56,7 @@ class Stage:
             self.haunt(ghosts)
             self.showing, self.playing = None, replay
             self.draw(replay.frame(last if time is None else time))
-            self.move_ghosts(last if time is None else time)
+            self.move_ghosts(replay, last if time is None else time)
         told, shown = described(replay.setting), set(replay.columns.tolist())
         about["vehicles"] = [each for each in told["vehicles"] if each["index"] in shown]
         return told | about | {"ghosts": [each.told() for each in ghosts]}
@@ -67,7 +67,7 @@ class Stage:
             if self.playing is None or self.playing.run != run:
                 return None
             self.draw(self.playing.frame(time))
-            self.move_ghosts(time)
+            self.move_ghosts(self.playing, time)
             return self.playing
 
     def layers(self, played: Replay, time: float) -> answer.Layers | None:
@@ -97,10 +97,10 @@ class Stage:
             self.ghosts = ghosts
             self.scene.show_ghosts([look for each in ghosts for look in each.looks])
 
-    def move_ghosts(self, time: float) -> None:
+    def move_ghosts(self, played: Replay, time: float) -> None:
         """Where the cars of the other runs were when this one was there [s]."""
         if self.ghosts:
-            self.scene.update_ghosts(np.concatenate([each.poses(time) for each in self.ghosts], axis=1))
+            self.scene.update_ghosts(np.concatenate([each.seen(played, time) for each in self.ghosts], axis=1))
 
     def on_frame(self, live: LiveRun, frame: Frame) -> None:
         """A frame of some live run; drawn when it is the one that is shown."""

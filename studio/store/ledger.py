@@ -1,5 +1,7 @@
 """The table of runs as a file for other programs: a row for each run, a column for each parameter that one of them set, and each metric.
 
+What of a recorded channel is wanted in one number (column.py) is a column too.
+
 csv       the unit of a metric stands behind its name, `metric.min_ttc [s]`; what there is none of is empty
 parquet   numbers as numbers; units are in the columns' own words
 json      a list of objects, units left out
@@ -14,6 +16,7 @@ from typing import Any, Literal
 import pyarrow as pa
 import pyarrow.parquet as pq
 
+from studio.store import column
 from studio.store.runs import Row, Runs
 from studio.store.setting import settings
 
@@ -26,10 +29,17 @@ ABOUT = (
 UNITS = {"sim_time_s": "s", "wall_time_s": "s"}
 
 
-def ledger(runs: Runs, form: Form, *, where: str = "1", values: Sequence[Any] = ()) -> bytes:
-    """The table of runs, newest first."""
+def ledger(runs: Runs, form: Form, *, where: str = "1", values: Sequence[Any] = (), channels: Sequence[str] = ()) -> bytes:
+    """The table of runs, newest first; `channels` names columns of a channel in one number each. Raises ScenarioError for others."""
+    wanted = [column.wanted(each) for each in channels]
     rows = runs.select(where=where, values=values)
-    return FORMS[form](*table(runs, rows))
+    columns, units = table(runs, rows)
+    for each in wanted:
+        found = column.filled(runs, each, [row.run for row in rows])
+        cells = [found.get(row.run) for row in rows]
+        columns[f"channel.{each.name}"] = [cell and cell.value for cell in cells]
+        units[f"channel.{each.name}"] = next((cell.unit for cell in cells if cell and cell.unit), "")
+    return FORMS[form](columns, {name: unit for name, unit in units.items() if unit not in ("", "1")})
 
 
 def table(runs: Runs, rows: Sequence[Row]) -> tuple[dict[str, list[Any]], dict[str, str]]:

@@ -11,6 +11,8 @@
     texts       digest → text                  files of kinds, and patches; equal ones stand once
     verdicts    run → verdict, reason, who, when; one after another, the last one counts
     remarks     run → name, tags, note
+    columns     column → name                  channels in one number that somebody wants to see of every run
+    cells       column, run → value, unit, time, why   that number of each run, or why there is none
     iterations  iteration → project, step, parent, changes, used, result   calibrations and validations of a vehicle, one after another
 
 SQLite in WAL mode: readers never wait for the writer. A number in `user_version` tells which layout a file has.
@@ -25,7 +27,7 @@ from pathlib import Path
 from studio.errors import Problem, StoreError
 from studio.store.sqlite import Database
 
-LAYOUT = 7
+LAYOUT = 8
 PATIENCE = 30.0  # [s] for another process to finish writing
 
 TABLES = {
@@ -95,6 +97,12 @@ TABLES = {
     "texts": ({"digest": str, "text": str}, "digest", ()),
     "verdicts": ({"run": int, "verdict": str, "reason": str, "who": str, "when": str}, None, (("run", "runs", "run"),)),
     "remarks": ({"run": int, "name": str, "tags": str, "note": str}, "run", (("run", "runs", "run"),)),
+    "columns": ({"column": int, "name": str}, "column", ()),
+    "cells": (
+        {"column": int, "run": int, "value": float, "unit": str, "time": float, "why": str},
+        ("column", "run"),
+        (("column", "columns", "column"), ("run", "runs", "run")),
+    ),
     "iterations": (
         {
             "iteration": int,
@@ -230,6 +238,7 @@ def make_tables(database: Database) -> None:
         database.table("events").create_index(["run"], if_not_exists=True)
         database.table("runs").create_index(["scenario"], if_not_exists=True)
         database.table("verdicts").create_index(["run"], if_not_exists=True)
+        database.table("columns").create_index(["name"], unique=True, if_not_exists=True)
         database.execute(f"pragma user_version = {LAYOUT}")
 
 

@@ -10,7 +10,7 @@ import yaml
 from studio import job
 from studio.assess.cause import explain
 from studio.assess.danger import QUIET, Lookout, hard_brakes, near_misses, stretches, with_dangers
-from studio.assess.known import belongs_to, known, place_of
+from studio.assess.known import belongs_to, known, overseers, place_of
 from studio.errors import UnknownError
 from studio.execution.brought import Brought
 from studio.execution.happening import happening
@@ -189,6 +189,24 @@ def test_what_was_heard_and_what_was_lost(drive):
     assert [(each.time, each.why) for each in found.lost] == [(4.9, "fading"), (5.0, "fading")]
     assert found.text == "b knew a by awareness, 0.28 s old (of 4.80 s); lost since: 2 messages, the last of 5.00 s (fading)"
     assert list(known(made, "a", "b", 254, 5.08)) == []
+
+
+def test_a_unit_beside_the_road_knew_for_the_cars_that_it_guides(drive):
+    """A garage that had heard a 0.15 s before, and that b had heard 0.08 s before; what it heard long ago is nothing that it knows."""
+    ones = np.ones(2, dtype=np.int32)
+
+    def guided(heard):
+        messages = replace(
+            none(("status", "order"), ("a", "b", "garage")), time=np.array([heard, 5.0]), sender=np.array([0, 2]), kind=np.array([0, 1]),
+            number=0 * ones, size=200.0 * ones, said_0=0.0 * ones, said_1=0.0 * ones, count=ones, receiver=np.array([2, 1]),
+            cause=np.array([RECEIVED, RECEIVED]), delay=0.01 * ones, distance=20.0 * ones,
+        )  # fmt: skip
+        return replace(drive, messages=messages)
+
+    (found,) = overseers(guided(4.93), "b", "a", 5.08)
+    assert found.text == "garage, which b had heard by order, 0.08 s old, knew a by status, 0.15 s old"
+    assert list(overseers(guided(4.93), "a", "b", 5.08)) == []
+    assert list(overseers(guided(2.9), "b", "a", 5.08)) == []
 
 
 def test_who_never_heard_says_so(drive):

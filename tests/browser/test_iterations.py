@@ -144,6 +144,50 @@ def side_by_side(page):
         assert begins == pytest.approx([edge, *ends[:-1]], abs=0.6)
 
 
+def test_2_a_channel_in_one_number_is_a_column(studio):
+    """Added by the same fields as on the page of a run, filled while one looks, sorted, filtered, remembered, and taken out again."""
+    page, _, client = studio
+    page.goto("/runs")
+    page.get_by_role("button", name=re.compile("^Columns")).click()
+    page.get_by_role("button", name="Add a column: a channel's aggregate").click()
+    form = page.get_by_role("dialog", name="A column: a channel's aggregate")
+    form.get_by_role("combobox", name="Channel").fill("follower_2.gap")
+    page.get_by_role("option", name="follower_2.gap [m]").click()
+    form.get_by_label("Number").select_option("Mean")
+    form.get_by_label("From [s]").fill("0.5")
+    form.get_by_role("button", name="Add the column").click()
+    name, title = "follower_2.gap.mean@0.5..", "follower_2.gap mean, from 0.5 s [m]"
+    head = page.get_by_role("columnheader", name=title)
+    expect(head).to_be_visible()
+    place = (
+        page.locator("thead tr")
+        .nth(1)
+        .locator("th")
+        .evaluate_all("(all, is) => all.findIndex(({textContent}) => textContent === is)", title)
+    )
+    cells = page.locator("tr[data-run]").locator(f"td:nth-child({place + 1})")
+    expect(cells.filter(has_text="…")).to_have_count(0)
+    (told,) = client.get("/api/aggregates", params={"runs": 1, "channel": "follower_2.gap", "begin": 0.5}).json()
+    mean = next(each["value"] for each in told["aggregates"] if each["kind"] == "mean")
+    assert float(cells.last.inner_text()) == pytest.approx(mean, rel=1e-3)
+    head.get_by_role("button").click()
+    expect(head).to_have_attribute("aria-sort", re.compile("ascending|descending"))
+    page.get_by_label("Filter the runs").fill(f"{name} > 1000")
+    expect(page.get_by_text("No run matches")).to_be_visible()
+    page.get_by_label("Filter the runs").fill(f"{name} < 1000")
+    expect(page.locator("tr[data-run]")).to_have_count(6)
+    page.goto("/runs")
+    expect(head).to_be_visible()
+    with page.expect_download() as kept:
+        page.get_by_role("button", name="Export", exact=True).click()
+        page.get_by_role("menuitem", name="CSV").click()
+    assert f"channel.{name} [m]" in kept.value.path().read_text().splitlines()[0]
+    page.get_by_role("button", name=re.compile("^Columns")).click()
+    page.get_by_role("button", name=f"Remove {title}").click()
+    expect(head).to_have_count(0)
+    page.get_by_role("button", name="As it was").click()
+
+
 def test_3_a_stroke_along_an_axis_is_the_filter(page):
     page.goto("/runs")
     page.get_by_text("Plot", exact=True).click()

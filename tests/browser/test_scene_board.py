@@ -154,5 +154,34 @@ def test_a_cone_is_placed_by_a_click_and_deleted(board):
     assert board.path.read_bytes() == before
 
 
+def test_a_rectangle_chooses_several(board):
+    """Drawn with Shift, since the drag alone is the camera's; a broken one chooses nothing."""
+    page = board.page
+    page.get_by_role("button", name="Select", exact=True).click()
+    page.mouse.click(*board.on_screen(left=-9.0, height=0.0))
+    expect(board.row("first", pressed=False)).to_be_visible()
+    x, y = board.on_screen(height=0.0)
+    page.keyboard.down("Shift")
+    try:
+        page.mouse.move(x - 150, y - 120)
+        expect(board.marks).not_to_have_attribute("aria-label", re.compile("under the pointer"))
+        page.mouse.down()
+        page.mouse.move(x + 60, y + 60)
+        expect(page.get_by_test_id("rectangle-in-scene")).to_be_visible()
+        page.mouse.move(x + 150, y + 120)
+        page.mouse.up()
+    finally:
+        page.keyboard.up("Shift")
+    expect(board.row("first", pressed=True)).to_be_visible()
+    expect(page.get_by_test_id("rectangle-in-scene")).to_be_hidden()
+
+
+def test_the_menu_behind_the_right_button(board):
+    page = board.page
+    page.mouse.click(*board.on_screen(), button="right")
+    expect(page.get_by_role("menu", name="What to do with first")).to_be_visible()
+    page.keyboard.press("Escape")
+
+
 def test_the_scene_rests(board):
     until(lambda: board.frame.evaluate(REST) == 0, "the scene to rest")

@@ -56,6 +56,15 @@ def test_every_car_is_joined_with_the_same_one_of_the_other_run(sample, runs):
     assert list(short.links(one, 3.0)) == []
 
 
+def test_a_ghost_within_its_own_car_does_not_hide_the_colour_of_that(sample, runs):
+    one, other = played(runs, sample), played(runs, sample, applications__platoon__parameters__headway=1.2)
+    (itself,), (ghost,) = haunting(one, [one], ""), haunting(one, [other], "")
+    assert itself.poses(2.0)[pose.VISIBLE].all() and not itself.seen(one, 2.0)[pose.VISIBLE].any()
+    apart = np.array([each.distance for each in ghost.links(one, 4.0)])
+    assert (apart > 0.3).any()
+    np.testing.assert_array_equal(ghost.seen(one, 4.0)[pose.VISIBLE] > 0, apart > 0.3)
+
+
 def test_a_ghost_whose_run_is_over_is_not_there(sample, runs):
     one, short = played(runs, sample), played(runs, sample, clock__duration=2.0)
     (ghost,) = haunting(one, [short], "")

@@ -11,6 +11,7 @@ import psutil
 import pytest
 
 from studio import job
+from studio.cli.running import interrupted
 from studio.errors import ScenarioError, StoreError
 from studio.execution import shelf
 from studio.execution.salvage import begun, lay_down, recorded, salvaged
@@ -86,6 +87,10 @@ def test_an_interrupted_run_keeps_what_it_had(sample, tmp_path):
     row = read_runs(db).find(1)
     assert row.status == "stopped" and "KeyboardInterrupt" in row.error and row.sim_time_s >= 3.6
     assert read_runs(db).trace(1, ["leader.speed"])["time"][-1] == pytest.approx(row.sim_time_s, abs=1e-9) and row.metrics
+    told = interrupted(open_runs(db), sample, db)
+    assert f"run 1 is stopped, what was recorded until {row.sim_time_s:g} s is kept" in told
+    assert f"studio show 1 --db {db}" in told and f"studio run {sample}" in told
+    assert "nothing was kept" in interrupted(open_runs(tmp_path / "other.db"), sample, db)
 
 
 def test_a_run_that_fills_the_disk_ends_and_keeps_what_it_had(sample, tmp_path):

@@ -144,11 +144,13 @@ class Editing:
         return self.turn(path, asked, "redo", lambda change: (change.before, change.after))
 
     def turn(self, path: Path, asked: NewTurn, sort: Any, way: Callable[[Change], tuple[str, str]]) -> Edited:
-        """Takes a step back or does it again; it must be the one that was seen to be next."""
+        """Takes a step back or does it again; it must be the one that was seen to be next. Where there is none, nothing happens."""
         with self.lock:
             changes = self.noted(path)
             done, undone = steps(changes)
             pile = done if sort == "undo" else undone
+            if not pile:  # a key that is pressed once too often is no mistake
+                return self.state(path)
             check_turn(pile, asked, sort, changes)
             before, after = map(self.history.text, way(pile[-1]))
             self.documents.put(path, after, digest(before))
@@ -206,9 +208,7 @@ def after(base: sources.Source, patch: list[Operation], path: Path) -> tuple[Sce
 
 
 def check_turn(pile: list[Change], asked: NewTurn, sort: str, changes: list[Change]) -> None:
-    """Raises ConflictError when there is nothing to undo, or something else than was seen."""
-    if not pile:
-        raise ConflictError(f"There is nothing to {sort}.", [Problem("history", f"holds no step to {sort}")])
+    """Raises ConflictError when the next step is another than was seen."""
     if asked.base != (changes[-1].revision if changes else 0):
         problem = Problem("history", "has gone on", f"“{changes[-1].name}”", remedy=f"look at it; the next to {sort} is “{pile[-1].name}”")
         raise ConflictError("Somebody else has changed the scenario meanwhile.", [problem])

@@ -38,13 +38,13 @@ def edit(scenario: str, new: NewEdit, desk: AtOwnDesk) -> Editing:
 
 @router.post("/scenarios/{scenario}/editing/undo")
 def undo(scenario: str, asked: NewTurn, desk: AtOwnDesk) -> Editing:
-    """Takes the last step back, whoever has done it."""
+    """Takes the last step back, whoever has done it; where there is none, nothing happens."""
     return desk.editing.undo(desk.file(scenario), asked)
 
 
 @router.post("/scenarios/{scenario}/editing/redo")
 def redo(scenario: str, asked: NewTurn, desk: AtOwnDesk) -> Editing:
-    """Does the step again that was undone last."""
+    """Does the step again that was undone last; where there is none, nothing happens."""
     return desk.editing.redo(desk.file(scenario), asked)
 
 

@@ -239,7 +239,8 @@ function Compiling() {
       data-testid="compiling"
     >
       Compiling once for this machine: {now.done} of {now.of} functions, {Math.round(now.seconds)} s
-      {now.latest ? <>, last {now.latest}</> : null}. A run that is started waits for it.
+      {now.latest ? <>, the last one {Math.round(now.since)} s ago: {now.latest}</> : null}. Large functions take minutes each, and several are
+      compiled at a time. A run that is started waits for it.
       <Progress mt={4} size="xs" value={(100 * now.done) / now.of} aria-label="Functions that are compiled" />
     </Alert>
   );

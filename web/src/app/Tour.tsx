@@ -86,7 +86,7 @@ function Guide({ step, all, onStep }: GuideProps) {
   return (
     <>
       {box ? <div className={classes.ring} style={{ left: box.x - 4, top: box.y - 4, width: box.width + 8, height: box.height + 8 }} /> : null}
-      <Paper className={classes.card} withBorder shadow="lg" p="sm" role="dialog" aria-label="Tour">
+      <Paper className={classes.card} data-place={now.place} withBorder shadow="lg" p="sm" role="dialog" aria-label="Tour">
         <Group justify="space-between" wrap="nowrap">
           <Title order={2} fz="sm" aria-live="polite">
             {now.title}

@@ -15,6 +15,7 @@ import {
   meet,
   type Point,
   type Size,
+  pinched,
   SCALES,
   seen,
   toGround,
@@ -22,6 +23,7 @@ import {
   type View,
   zoomed,
 } from "../model/view";
+import { Fingers } from "../ui/finger";
 import { type Ground, outsideColour, paint } from "./ground";
 import { paintMarks } from "./marks";
 
@@ -86,6 +88,7 @@ export class PlanPicture {
   private frame = 0;
   private fittedOnce = false;
   private hovered: Finding | undefined;
+  private readonly fingers = new Fingers(() => undefined);
   private press: { x: number; y: number; moved: boolean } | undefined;
   private readonly watcher: ResizeObserver;
   private readonly ended = new AbortController();
@@ -101,7 +104,7 @@ export class PlanPicture {
     canvas.addEventListener("pointerdown", (event) => this.pressed(event), { signal });
     canvas.addEventListener("pointermove", (event) => this.moved(event), { signal });
     canvas.addEventListener("pointerup", (event) => this.released(event), { signal });
-    canvas.addEventListener("pointercancel", () => this.let(), { signal });
+    canvas.addEventListener("pointercancel", (event) => this.cancelled(event), { signal });
     canvas.addEventListener("pointerleave", () => this.hover(undefined), { signal });
     this.resize();
   }
@@ -270,12 +273,18 @@ export class PlanPicture {
 
   private pressed(event: PointerEvent): void {
     if (event.button !== 0) return;
+    if (event.pointerType === "touch") this.fingers.press(event.pointerId, this.at(event));
     this.press = { ...this.at(event), moved: false };
     this.canvas.setPointerCapture(event.pointerId);
   }
 
   private moved(event: PointerEvent): void {
     const at = this.at(event);
+    const pair = this.fingers.move(event.pointerId, at);
+    if (pair) {
+      this.press = { ...at, moved: true };
+      return this.look(pinched(this.view, this.size, pair.before, pair.after));
+    }
     if (!this.press) return this.hover(this.pick(at));
     const [dx, dy] = [at.x - this.press.x, at.y - this.press.y];
     if (!this.press.moved && Math.hypot(dx, dy) < STILL) return;
@@ -287,8 +296,16 @@ export class PlanPicture {
 
   private released(event: PointerEvent): void {
     const clicked = this.press !== undefined && !this.press.moved;
+    this.fingers.lift(event.pointerId);
+    // The finger that stays goes on from where it is.
+    if (this.fingers.count > 0) return void (this.press = undefined);
     this.let();
     if (clicked) this.listener.onPick(this.pick(this.at(event)));
+  }
+
+  private cancelled(event: PointerEvent): void {
+    this.fingers.lift(event.pointerId);
+    this.let();
   }
 
   private let(): void {

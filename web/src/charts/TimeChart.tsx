@@ -10,6 +10,7 @@ import { type Limits, limitsOf } from "./limits";
 import { DataTable } from "./DataTable";
 import { Stroke } from "./Stroke";
 import classes from "./TimeChart.module.css";
+import { touched } from "./touch";
 import type { Span, Zoom } from "./zoom";
 
 export interface Line {
@@ -346,7 +347,10 @@ export function TimeChart(props: Props) {
     chart.current = made;
     const observer = new ResizeObserver(() => made.setSize(size()));
     observer.observe(element);
+    const whole = () => Math.max(props.duration ?? 0, made.data[0].at(-1) ?? 0, 1);
+    const untouched = touched(made, () => memory.current.span, whole, (span) => memory.current.onSpan(span));
     return () => {
+      untouched();
       observer.disconnect();
       made.destroy();
     };

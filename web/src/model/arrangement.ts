@@ -1,5 +1,6 @@
 /** How somebody has arranged the columns of a table: which are hidden, which stay at the left, and in which order the others stand. */
 
+import { channelId } from "./column";
 import type { Column } from "./table";
 
 export interface Arrangement {
@@ -8,6 +9,8 @@ export interface Arrangement {
   order: readonly string[];
   /** Those that stay at the left when the table is scrolled sideways, in their order; what was kept before there were any has none. */
   pinned?: readonly string[];
+  /** Names of columns that somebody has added: recorded channels in one number. */
+  channels?: readonly string[];
 }
 
 export const AS_IT_IS: Arrangement = { hidden: [], order: [], pinned: [] };
@@ -18,9 +21,10 @@ export function pinnedOf(columns: readonly Column[], { pinned = [] }: Arrangemen
 }
 
 /** Keeps a column at the left, behind those that are there, or lets it go to its place again; one that was hidden is shown. */
-export function pinned({ hidden, order, pinned: before = [] }: Arrangement, id: string): Arrangement {
-  if (before.includes(id)) return { hidden, order, pinned: before.filter((other) => other !== id) };
-  return { order, hidden: hidden.filter((other) => other !== id), pinned: [...before, id] };
+export function pinned(arrangement: Arrangement, id: string): Arrangement {
+  const { hidden, pinned: before = [] } = arrangement;
+  if (before.includes(id)) return { ...arrangement, pinned: before.filter((other) => other !== id) };
+  return { ...arrangement, hidden: hidden.filter((other) => other !== id), pinned: [...before, id] };
 }
 
 /** The columns in the order that was chosen; groups stay together. */
@@ -35,6 +39,20 @@ export function arranged(columns: readonly Column[], { order }: Arrangement): Co
 export function toggled(arrangement: Arrangement, id: string): Arrangement {
   const { hidden } = arrangement;
   return { ...arrangement, hidden: hidden.includes(id) ? hidden.filter((other) => other !== id) : [...hidden, id] };
+}
+
+/** With a column of a channel more; one that is there already is only shown again. */
+export function withChannel(arrangement: Arrangement, name: string): Arrangement {
+  const { channels = [], hidden } = arrangement;
+  const id = channelId(name);
+  return { ...arrangement, channels: channels.includes(name) ? channels : [...channels, name], hidden: hidden.filter((other) => other !== id) };
+}
+
+/** Without one, and without what was said of it. */
+export function withoutChannel(arrangement: Arrangement, name: string): Arrangement {
+  const rest = (ids: readonly string[] = []) => ids.filter((id) => id !== channelId(name));
+  const { channels = [], hidden, order, pinned: fixed } = arrangement;
+  return { hidden: rest(hidden), order: rest(order), pinned: rest(fixed), channels: channels.filter((other) => other !== name) };
 }
 
 /** Moves a column by so many places within its group, or within those at the left; beyond the ends it stays. */

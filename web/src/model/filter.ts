@@ -180,7 +180,8 @@ class Reader {
 }
 
 /** Names of a column: all of it, its last part, and what its head says. */
-export const namesOf = ({ id, name, title }: Column): string[] => {
+export const namesOf = ({ id, group, name, title }: Column): string[] => {
+  if (group === "channels") return [id.slice(id.indexOf(":") + 1).toLowerCase()]; // its last part is only which number it is
   const path = id.slice(id.indexOf(":") + 1);
   const names = [path, path.slice(path.lastIndexOf(".") + 1), name, title, ...(id === "tags" ? ["tag"] : [])];
   return names.map((each) => each.toLowerCase().replace(/\s+/g, "_"));

@@ -1,7 +1,7 @@
 /** Runs of a table in groups that agree in one column, and what can be said of a group as a whole. */
 
 import type { Json, ListedRun } from "./run";
-import { type Column, isUnranked } from "./table";
+import { type Column, isResult, isUnranked } from "./table";
 import { formatNumber, formatValue, withUnit } from "./units";
 
 export interface RunGroup {
@@ -19,7 +19,7 @@ const UNLIKE = new Set(["run", "created", "sim_time"]);
 
 /** The columns by which runs may be grouped: what was said and set, and not what came out. */
 export const groupable = (columns: readonly Column[]): Column[] =>
-  columns.filter(({ id, group }) => group !== "metrics" && !UNLIKE.has(id));
+  columns.filter((column) => !isResult(column) && !UNLIKE.has(column.id));
 
 /** The groups of runs; their runs keep their order. Groups stand as their means do in the column that is sorted by, else as they come. */
 export function groupsOf(runs: readonly ListedRun[], by: Column, sort?: { column: Column; desc: boolean }): RunGroup[] {
@@ -89,7 +89,7 @@ function spread(values: readonly number[]): Summary {
 /** What a group says in a column, in short and in full; nothing where its runs have nothing. */
 export function said(runs: readonly ListedRun[], column: Column): { text: string; full: string } | undefined {
   const found = summary(runs, column);
-  if (found) return column.group === "metrics" ? spreadText(found, column) : rangeText(found, column);
+  if (found) return isResult(column) ? spreadText(found, column) : rangeText(found, column);
   const texts = new Set(runs.map((run) => valueText(column.value(run))));
   texts.delete("–");
   if (texts.size === 0) return undefined;

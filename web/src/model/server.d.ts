@@ -249,7 +249,7 @@ export interface paths {
         };
         /**
          * Table Of Runs
-         * @description The table of runs as a file: parameters, metrics with units, verdicts.
+         * @description The table of runs as a file: parameters, metrics with units, verdicts, and channels in one number.
          */
         get: operations["table_of_runs_api_table_get"];
         put?: never;
@@ -634,6 +634,30 @@ export interface paths {
         get: operations["aggregates_api_aggregates_get"];
         put?: never;
         post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/column": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Channel Column
+         * @description A channel in one number, of every run of which that has been worked out already.
+         */
+        get: operations["channel_column_api_column_get"];
+        put?: never;
+        /**
+         * Fill Channel Column
+         * @description Works a channel in one number out of runs of which that has not been done, newest first, and keeps it; only these are returned.
+         */
+        post: operations["fill_channel_column_api_column_post"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1572,7 +1596,7 @@ export interface paths {
         put?: never;
         /**
          * Undo
-         * @description Takes the last step back, whoever has done it.
+         * @description Takes the last step back, whoever has done it; where there is none, nothing happens.
          */
         post: operations["undo_api_scenarios__scenario__editing_undo_post"];
         delete?: never;
@@ -1592,7 +1616,7 @@ export interface paths {
         put?: never;
         /**
          * Redo
-         * @description Does the step again that was undone last.
+         * @description Does the step again that was undone last; where there is none, nothing happens.
          */
         post: operations["redo_api_scenarios__scenario__editing_redo_post"];
         delete?: never;
@@ -1843,6 +1867,31 @@ export interface components {
             title: string;
         };
         /**
+         * Cell
+         * @description A channel of one run in one number.
+         */
+        Cell: {
+            /** Run */
+            run: number;
+            /**
+             * Value
+             * @description in the unit of the channel; null where there is none
+             */
+            value: number | null;
+            /** Unit */
+            unit: string;
+            /**
+             * Time
+             * @description [s] when it was, of what was at a time
+             */
+            time: number | null;
+            /**
+             * Why
+             * @description why there is none; empty where there is one
+             */
+            why: string;
+        };
+        /**
          * Changes
          * @description Changes of a scenario by path.
          */
@@ -1866,6 +1915,54 @@ export interface components {
             unit: string;
             /** Label */
             label: string;
+        };
+        /**
+         * ChannelColumn
+         * @description A channel in one number, run by run, as far as that has been worked out.
+         */
+        ChannelColumn: {
+            /**
+             * Name
+             * @description what it is called in exports and by the command
+             */
+            name: string;
+            /** Channel */
+            channel: string;
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "min" | "max" | "mean" | "p5" | "p95" | "at_event";
+            /**
+             * Begin
+             * @description [s] from then on; null from the beginning
+             */
+            begin: number | null;
+            /**
+             * End
+             * @description [s] until then; null to the end
+             */
+            end: number | null;
+            /**
+             * Event
+             * @description the kind of events at whose first it is; empty for other numbers
+             */
+            event: string;
+            /**
+             * Meaning
+             * @description how the number is made, in words
+             */
+            meaning: string;
+            /**
+             * Cells
+             * @description newest run first
+             */
+            cells: components["schemas"]["Cell"][];
+            /**
+             * Lacking
+             * @description runs that are over and have not been worked out
+             */
+            lacking: number;
         };
         /**
          * ChannelsNews
@@ -1941,6 +2038,11 @@ export interface components {
              * @description the function that was compiled last
              */
             latest: string;
+            /**
+             * Since
+             * @description [s] since that was done, or since it began
+             */
+            since: number;
         };
         /**
          * Course
@@ -2291,6 +2393,11 @@ export interface components {
              * @description units of which nothing was recorded
              */
             unknown: string[];
+            /**
+             * Overseers
+             * @description who beside the road knew for them
+             */
+            overseers: components["schemas"]["Overseer"][];
             /**
              * Without Tyres
              * @description units that are light vehicles, of whose tyres nothing is known
@@ -4185,6 +4292,14 @@ export interface components {
              */
             value?: unknown;
             layout?: components["schemas"]["Layout"] | null;
+        };
+        /**
+         * Overseer
+         * @description A unit without a vehicle that guided one of them: what it had told that one, and what it knew about the other.
+         */
+        Overseer: {
+            told: components["schemas"]["Known"];
+            knew: components["schemas"]["Known"];
         };
         /**
          * ParameterDifference
@@ -7548,6 +7663,8 @@ export interface operations {
                 scenario?: string | null;
                 /** @description only these numbers, separated by commas */
                 runs?: string;
+                /** @description channels in one number, such as leader.speed.max */
+                columns?: string[];
             };
             header?: never;
             path?: never;
@@ -9916,6 +10033,252 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Aggregated"][];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The server is open to a network, and the header `Authorization: Bearer TOKEN` is not its token. */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Another origin or name, or something that may be read only. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description There is no such thing. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The address has no such method. */
+            405: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is over, or not as the request expects it. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It has changed meanwhile. */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is too much. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Something in it is wrong. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description A mistake of the studio. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The database cannot be used now, or is damaged. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+        };
+    };
+    channel_column_api_column_get: {
+        parameters: {
+            query: {
+                /** @description vehicle.quantity.kind, @5..20 between times [s]: leader.speed.max, leader.speed.mean@5..20, leader.speed.at_collision */
+                name: string;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ChannelColumn"];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The server is open to a network, and the header `Authorization: Bearer TOKEN` is not its token. */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Another origin or name, or something that may be read only. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description There is no such thing. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The address has no such method. */
+            405: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is over, or not as the request expects it. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It has changed meanwhile. */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is too much. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Something in it is wrong. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description A mistake of the studio. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The database cannot be used now, or is damaged. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+        };
+    };
+    fill_channel_column_api_column_post: {
+        parameters: {
+            query: {
+                /** @description vehicle.quantity.kind, @5..20 between times [s]: leader.speed.max, leader.speed.mean@5..20, leader.speed.at_collision */
+                name: string;
+                /** @description so many runs at most */
+                most?: number;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ChannelColumn"];
                 };
             };
             /** @description The body is no JSON. */

@@ -7,7 +7,7 @@ import type { Json, ListedRun } from "./run";
 import { isWhole, shortNames } from "./run";
 import { formatValue, words } from "./units";
 
-export type Group = "run" | "parameters" | "metrics";
+export type Group = "run" | "parameters" | "metrics" | "channels";
 
 export interface Column {
   id: string;
@@ -21,6 +21,8 @@ export interface Column {
   value: (run: ListedRun) => Json | undefined;
   /** Of a parameter: whether the run has set it; else it is as the run's scenario has it. */
   isSet?: (run: ListedRun) => boolean;
+  /** Of a channel in one number: what stands where there is none, and why. */
+  lack?: (run: ListedRun) => { text: string; why: string };
 }
 
 /** What every run has, whatever was set or measured. */
@@ -87,8 +89,11 @@ function order(a: Json | undefined, b: Json | undefined): number {
   return formatValue(a).localeCompare(formatValue(b), "en", { numeric: true });
 }
 
-/** Whether a metric of this run has no place among those of others, since it was measured of less than a whole run. */
-export const isUnranked = ({ group }: Pick<Column, "group">, run: ListedRun): boolean => group === "metrics" && !isWhole(run);
+/** What came out of a run, and was not set. */
+export const isResult = ({ group }: Pick<Column, "group">): boolean => group === "metrics" || group === "channels";
+
+/** Whether a result of this run has no place among those of others, since it was measured of less than a whole run. */
+export const isUnranked = (column: Pick<Column, "group">, run: ListedRun): boolean => isResult(column) && !isWhole(run);
 
 /**
  * Sort by a column; equals keep their order. Last in both directions come what is missing and, before it, metrics of runs

@@ -55,6 +55,14 @@ export function zoomed(view: View, size: Size, factor: number, at: Point): View 
   };
 }
 
+/** Two points that were held on the screen are where they are now, as far as that is possible without turning. */
+export function pinched(view: View, size: Size, before: readonly [Point, Point], after: readonly [Point, Point]): View {
+  const apart = ([one, other]: readonly [Point, Point]) => Math.max(1, Math.hypot(other.x - one.x, other.y - one.y));
+  const middle = ([one, other]: readonly [Point, Point]) => ({ x: (one.x + other.x) / 2, y: (one.y + other.y) / 2 });
+  const [from, to] = [middle(before), middle(after)];
+  return zoomed(dragged(view, to.x - from.x, to.y - from.y), size, apart(after) / apart(before), to);
+}
+
 /** All of these bounds, with a margin around them [px]. */
 export function fitted([x0, y0, x1, y1]: Bounds, { width, height }: Size, margin = 24): View {
   const across = Math.max(1, width - 2 * margin) / Math.max(1, x1 - x0);

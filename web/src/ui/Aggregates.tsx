@@ -1,15 +1,13 @@
 /** A recorded channel of one run, or of several beside each other, in a few numbers: of all of it or of a stretch, and at an event. */
 
-import { Group, NativeSelect, Select, Table, Text, TextInput } from "@mantine/core";
+import { Group, NativeSelect, Table, Text } from "@mantine/core";
 import { useState } from "react";
 import { commonKinds } from "../model/beside";
 import type { RunDetail, Server } from "../model/run";
 import { boundOf, common, NAMES } from "../model/aggregate";
 import { formatNumber, formatTime, withUnit, words } from "../model/units";
+import { BoundInput, ChannelSelect } from "./ChannelFields";
 import { Failure, Loading } from "./State";
-
-/** So many channels are listed at a time; the rest is found by typing. */
-const LISTED = 100;
 
 interface Asked {
   runs: readonly number[];
@@ -37,23 +35,12 @@ export function Aggregates({ runs, useFound }: Props) {
   const asked = { runs: runs.map(({ run }) => run), channel: channel?.name ?? "", begin: begin ?? undefined, end: end ?? undefined, event };
   const { data, error, refetch } = useFound(asked, isAsked);
   if (!channel) return <Text size="sm">No channel was recorded in {runs.length > 1 ? "all of them" : "it"}.</Text>;
-  const wrong = (bound: number | null | undefined) => (bound === null ? "a number of seconds, such as 12.5" : undefined);
   return (
     <>
       <Group gap="xs" align="flex-start">
-        <Select
-          size="xs"
-          w={240}
-          searchable
-          limit={LISTED}
-          allowDeselect={false}
-          label="Channel"
-          value={channel.name}
-          onChange={(name) => setChosen(name ?? undefined)}
-          data={channels.map(({ name, unit }) => ({ value: name, label: withUnit(name, unit) }))}
-        />
-        <TextInput size="xs" w={90} label="From [s]" placeholder="beginning" value={from} error={wrong(begin)} onChange={(at) => setFrom(at.currentTarget.value)} />
-        <TextInput size="xs" w={90} label="To [s]" placeholder="end" value={to} error={wrong(end)} onChange={(at) => setTo(at.currentTarget.value)} />
+        <ChannelSelect channels={channels} value={channel.name} onChange={setChosen} />
+        <BoundInput label="From [s]" placeholder="beginning" value={from} onChange={setFrom} />
+        <BoundInput label="To [s]" placeholder="end" value={to} onChange={setTo} />
         <NativeSelect
           size="xs"
           label="At the first"

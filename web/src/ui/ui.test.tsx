@@ -59,7 +59,7 @@ describe("why it happened", () => {
             faults: [],
             not_recorded: [],
             unknown: [],
-            lines: ["car_2 knew car_1 by front, 0.10 s old", "car_2: platoon had brake"],
+            overseers: [], lines: ["car_2 knew car_1 by front, 0.10 s old", "car_2: platoon had brake"],
           },
         ]}
       />,

@@ -69,7 +69,7 @@ function Charts({ found, details }: { found: SideBySide; details: readonly RunDe
         <h2>Over time</h2>
         <Align kinds={commonKinds(events)} chosen={aligned} onChoose={setAligned} />
         <Runs names={names} offsets={offsets} />
-        <InScene runs={found.runs} aligned={aligned} />
+        <InScene runs={found.runs} aligned={aligned} time={firstTime(events[0] ?? [], aligned)} />
         <Vehicles colors={colors} hidden={hidden} onHidden={setHidden} plain={details.length > 2} />
       </Group>
       <div className={classes.charts}>
@@ -134,14 +134,17 @@ function Align({ kinds, chosen, onChoose }: AlignProps) {
   );
 }
 
+/** When the event was by which the runs are aligned [s]; without one, when they begin. */
+const firstTime = (events: RunDetail["events"], kind: string | undefined): number => events.find((event) => event.kind === kind)?.time ?? 0;
+
 /** The first run in the 3D scene, and the others as ghosts among its cars, on one clock. */
-function InScene({ runs: [first, ...others], aligned }: { runs: readonly Run[]; aligned: string | undefined }) {
+function InScene({ runs: [first, ...others], aligned, time }: { runs: readonly Run[]; aligned: string | undefined; time: number }) {
   if (!first || others.length === 0) return null;
   return (
     <Link
       to="/studio/$scenario"
       params={{ scenario: first.scenario }}
-      search={{ run: first.run, ghosts: others.map(({ run }) => run).join(","), align: aligned }}
+      search={{ run: first.run, ghosts: others.map(({ run }) => run).join(","), align: aligned, time }}
       className={classes.link}
       style={{ fontSize: "var(--mantine-font-size-sm)" }}
     >

@@ -50,12 +50,14 @@ type Colour = [number, number, number, number];
 
 export class Board {
   private readonly deck: Deck<OrthographicView>;
+  private readonly canvas: HTMLCanvasElement;
   /** When something was told last [ms]. */
   private told = 0;
   private wake = () => undefined as void;
   private ground: { of: Plan; dark: boolean; layers: Layer[] } | undefined;
 
   constructor(canvas: HTMLCanvasElement, size: { width: number; height: number }) {
+    this.canvas = canvas;
     this.deck = new Deck<OrthographicView>({
       canvas,
       ...size,
@@ -67,17 +69,25 @@ export class Board {
       // Nothing is drawn while nothing changes.
       _animate: false,
       onLoad: () => this.rest(),
+      onResize: () => this.wake(),
     });
   }
 
-  /** deck.gl asks at every frame whether there is something to draw; it rests until it is told something, a moment after the last time. */
+  /**
+   * deck.gl asks at every frame whether there is something to draw; it rests until it is told something, a moment after the last time.
+   *
+   * It hears of its size later than we do, on a busy machine much later: until what it has drawn is as large as its place, it does not rest,
+   * or the picture would stay stretched.
+   */
   private rest(): void {
     const loop = (this.deck as unknown as { animationLoop?: Loop }).animationLoop;
     if (!loop?._requestAnimationFrame) return;
     const next = loop._requestAnimationFrame.bind(loop);
     let asleep = false;
     loop._requestAnimationFrame = () => {
-      asleep = performance.now() > this.told + AWAKE_MS && !this.deck.needsRedraw({ clearRedrawFlags: false });
+      const fits = this.fits();
+      asleep = fits && performance.now() > this.told + AWAKE_MS && !this.deck.needsRedraw({ clearRedrawFlags: false });
+      if (!fits) this.deck.redraw("the place has another size");
       if (!asleep) next();
     };
     this.wake = () => {
@@ -86,6 +96,13 @@ export class Board {
       asleep = false;
     };
     this.wake();
+  }
+
+  /** Whether the picture has as many pixels as its place; one that is not seen has. */
+  private fits(): boolean {
+    const { clientWidth, clientHeight, width, height } = this.canvas;
+    const isNear = (pixels: number, css: number) => Math.abs(pixels - css * window.devicePixelRatio) <= 2;
+    return clientWidth === 0 || clientHeight === 0 || (isNear(width, clientWidth) && isNear(height, clientHeight));
   }
 
   close(): void {

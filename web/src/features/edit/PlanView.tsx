@@ -9,8 +9,9 @@ import type { Line } from "../../model/editing/line";
 import type { Knob } from "../../model/editing/shape";
 import { type Lane, onLane } from "../../model/editing/snap";
 import type { Plan } from "../../model/map";
-import { type Bounds, dragged, fitted, type Point, scaleBar, type Size, toGround, toScreen, type View, zoomed } from "../../model/view";
+import { type Bounds, dragged, fitted, pinched, type Point, scaleBar, type Size, toGround, toScreen, type View, zoomed } from "../../model/view";
 import { useDark } from "../../ui/dark";
+import { Fingers, TREMBLE } from "../../ui/finger";
 import type { Board, Picture } from "./Board";
 import classes from "./Edit.module.css";
 import { draggedThings, type Grip, ghostFor, gripsOf, grippedThing, type Held, letGo, nearest, type Tool } from "./grip";
@@ -46,8 +47,8 @@ interface Props {
   onEnough: () => void;
 }
 
-/** A press that moves by less is a click [px]. */
-const STILL = 4;
+/** A press that moves by less is a click [px]; a finger trembles. */
+const stillOf = ({ pointerType }: PointerEvent): number => (pointerType === "touch" ? TREMBLE : 4);
 /** The pointer reaches so far around thin things [px]. */
 const REACH = 7;
 /** And a finger so far around what it takes hold of [px]. */
@@ -57,6 +58,8 @@ const HOLD = 9;
 const ARM = 34;
 
 type Press =
+  /** Two fingers, or one that has rested: nothing is held until all of them are gone. */
+  | { is: "fingers" }
   | { is: "pan"; last: Point; moved: boolean }
   | { is: "rectangle"; from: Point; add: boolean; moved: boolean }
   | { is: "things"; items: Item[]; from: Point; start: Point; moved: boolean; click: string[] }
@@ -114,8 +117,24 @@ export function PlanView(props: Props) {
     return { x: event.clientX - box.left, y: event.clientY - box.top };
   };
 
+  const hasRested = useRef(false);
+  const rest = useRef<(at: Point) => void>(undefined);
+  rest.current = (at) => {
+    if (!view) return;
+    const on = toGround(view, size, at);
+    const { left, top } = (place.current as HTMLElement).getBoundingClientRect();
+    setPress({ is: "fingers" });
+    hasRested.current = true;
+    props.onMenu({ x: left + at.x, y: top + at.y }, on, hit(items, on, FINGER / view.scale));
+  };
+  const [fingers] = useState(() => new Fingers((at) => rest.current?.(at)));
+
   const down = (event: PointerEvent) => {
     if (!view || (event.target as HTMLElement).closest("[data-over]")) return;
+    const isFinger = event.pointerType === "touch";
+    hasRested.current = false;
+    if (isFinger) fingers.press(event.pointerId, local(event));
+    if (isFinger && fingers.count > 1) return setPress({ is: "fingers" });
     (event.currentTarget as HTMLElement).focus({ preventScroll: true });
     (event.currentTarget as HTMLElement).setPointerCapture(event.pointerId);
     const screen = local(event);
@@ -140,8 +159,11 @@ export function PlanView(props: Props) {
 
   const move = (event: PointerEvent) => {
     const screen = local(event);
+    const pair = fingers.move(event.pointerId, screen);
+    if (pair) return setView((now) => now && pinched(now, size, pair.before, pair.after));
     setPointer(screen);
-    if (!press || !view) return;
+    if (!press || !view || press.is === "fingers") return;
+    const STILL = stillOf(event);
     if (press.is === "pan") {
       if (!press.moved && distance(press.last, screen) < STILL) return;
       setView(dragged(view, screen.x - press.last.x, screen.y - press.last.y));
@@ -151,7 +173,10 @@ export function PlanView(props: Props) {
   };
 
   const up = (event: PointerEvent) => {
-    if (!press || !view) return;
+    fingers.lift(event.pointerId);
+    if (press?.is === "fingers" && fingers.count > 0) return;
+    if (!press || !view || press.is === "fingers") return setPress(undefined);
+    const STILL = stillOf(event);
     setPress(undefined);
     const screen = local(event);
     const on = toGround(view, size, screen);
@@ -195,8 +220,13 @@ export function PlanView(props: Props) {
       onPointerDown={down}
       onPointerMove={move}
       onPointerUp={up}
-      onPointerCancel={() => setPress(undefined)}
+      onPointerCancel={(event) => {
+        fingers.lift(event.pointerId);
+        setPress(undefined);
+      }}
       onPointerLeave={() => setPointer(undefined)}
+      // The mouse that the browser plays after a finger would close the menu that the finger has opened.
+      onTouchEnd={(event) => hasRested.current && event.preventDefault()}
       onWheel={wheel}
       onDoubleClick={(event) => {
         if (tool.is !== "select") return props.onEnough();
@@ -240,7 +270,7 @@ function focusKnob(place: HTMLElement | null, grip: Grip): void {
 }
 
 /** Where on the screen a press began. */
-const startOf = (press: Exclude<Press, { is: "pan" }>): Point => (press.is === "rectangle" ? press.from : press.start);
+const startOf = (press: Exclude<Press, { is: "pan" | "fingers" }>): Point => (press.is === "rectangle" ? press.from : press.start);
 
 const distance = (a: Point, b: Point): number => Math.hypot(a.x - b.x, a.y - b.y);
 

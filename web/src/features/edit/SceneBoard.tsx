@@ -8,7 +8,7 @@ import type { SceneVehicle } from "../../api/types";
 import { offLand } from "../../charts/ground";
 import { boundsOfItems } from "../../model/editing/hit";
 import { type Editing, type Item, named } from "../../model/editing/item";
-import type { Question } from "../../model/editing/mark";
+import type { Marks, Question } from "../../model/editing/mark";
 import { liftOf, type Place } from "../../model/editing/sight";
 import type { Plan } from "../../model/map";
 import { useDark } from "../../ui/dark";
@@ -48,7 +48,8 @@ export function SceneBoard(props: Props) {
     const { left = 0, top = 0 } = frame.current?.getBoundingClientRect() ?? {};
     props.onMenu({ x: left + at.x, y: top + at.y }, ground, item);
   };
-  const hand = useHand({ ...props, onMenu }, frame, ready, send);
+  const rectangle = useRef<HTMLDivElement>(null);
+  const hand = useHand({ ...props, onMenu }, frame, rectangle, ready, send);
 
   // A scene that has just come up, or was built again, must be told everything.
   useEffect(() => send({ studio: "theme", dark }), [dark, ready, send]);
@@ -59,6 +60,7 @@ export function SceneBoard(props: Props) {
   return (
     <section className={classes.scene} aria-label="Scene of the scenario">
       {stage.data ? <iframe ref={frame} title="3D scene" src={stage.data.place} className={classes.frame} /> : null}
+      <div ref={rectangle} className={classes.rectangle} hidden data-testid="rectangle-in-scene" />
       {there && !problem ? (
         <div className={classes.views}>
           <Button size="compact-xs" variant="default" onClick={() => send({ studio: "view", preset: "overview" })}>
@@ -79,7 +81,7 @@ export function SceneBoard(props: Props) {
 }
 
 /** The hand, which sees what is there now, and whose marks go to the scene past React, as often as the pointer moves. */
-function useHand(props: Props, frame: RefObject<HTMLIFrameElement | null>, ready: number, send: ReturnType<typeof useBridge>["send"]): Hand {
+function useHand(props: Props, frame: RefObject<HTMLIFrameElement | null>, rectangle: RefObject<HTMLDivElement | null>, ready: number, send: ReturnType<typeof useBridge>["send"]): Hand {
   const { plan } = props;
   const aloft = useMemo(() => plan.lanes.flatMap(offLand), [plan]);
   const world = useRef<World>(undefined as never);
@@ -89,7 +91,8 @@ function useHand(props: Props, frame: RefObject<HTMLIFrameElement | null>, ready
     () =>
       new Hand(
         () => world.current,
-        (marks) => {
+        ({ rectangle: corners, ...marks }) => {
+          span(rectangle.current, corners);
           // Only what differs from what was shown last.
           const text = JSON.stringify(marks);
           if (text !== last.current) send({ studio: "marks", marks });
@@ -115,6 +118,16 @@ function useHand(props: Props, frame: RefObject<HTMLIFrameElement | null>, ready
     return () => removeEventListener("pagehide", leave);
   }, [hand]);
   return hand;
+}
+
+/** Draws the rectangle over the frame, or takes it away. */
+function span(element: HTMLElement | null, corners: Marks["rectangle"]): void {
+  if (!element) return;
+  element.hidden = !corners;
+  const [a, b] = corners ?? [];
+  if (!a || !b) return;
+  const [left, top, width, height] = [Math.min(a.x, b.x), Math.min(a.y, b.y), Math.abs(a.x - b.x), Math.abs(a.y - b.y)];
+  Object.assign(element.style, { left: `${left}px`, top: `${top}px`, width: `${width}px`, height: `${height}px` });
 }
 
 const tellGone = (items: readonly Item[]) =>

@@ -121,6 +121,22 @@ describe("the hand in the scene", () => {
     ]);
   });
 
+  it("chooses what a rectangle holds, beside what is chosen; a broken one nothing", () => {
+    const { hand, did, point, marks } = handOf({ chosen: ["script.mark.when.area"], locked: [] });
+    expect(point("down", 30, -8)).toBe(false); // the camera's
+    expect(point("down", 30, -8, 0, true)).toBe(true);
+    point("move", 50, 3, 0, true);
+    expect(marks().rectangle).toEqual([{ x: 300, y: 80 }, { x: 500, y: -30 }]);
+    point("up", 50, 2, 0, true); // the wall, at y = 4, is not within
+    expect(did).toEqual([["choose", ["script.mark.when.area", "vehicles.ego"]]]);
+    point("down", 30, -8, 0, true);
+    point("move", 50, 6, 0, true);
+    expect(hand.cancel()).toBe(true);
+    expect(marks().rectangle).toBeUndefined();
+    point("up", 50, 6, 0, true);
+    expect(did).toHaveLength(1);
+  });
+
   it("turns by the handle before the end", () => {
     const { did, point } = handOf({ chosen: ["script.wall"] });
     expect(point("down", 41 + 3 + 1.5, 4)).toBe(true);

@@ -6,6 +6,7 @@
 import type { Stretch } from "../../charts/ground";
 import type { Drag } from "../../model/editing/deed";
 import type { Editing, Figure, Item } from "../../model/editing/item";
+import { placeOf } from "../../model/editing/hit";
 import { corners, type Line } from "../../model/editing/line";
 import type { Marks, Question } from "../../model/editing/mark";
 import { liftOf, onLevel, type Place, type Ray, seen } from "../../model/editing/sight";
@@ -39,6 +40,8 @@ export interface World extends Doer {
 type Press = { start: Point; height: number; to: Point; moved: boolean } & (
   | { is: "things"; items: Item[]; from: Point; click: string[] }
   | { is: "grip"; grip: Grip }
+  /** On the frame [px]: what lies within it is chosen, too. */
+  | { is: "rectangle"; corner: Point }
 );
 
 /** A press that moves by less is a click [px]. */
@@ -88,7 +91,7 @@ export class Hand {
   };
 
   private heldItems(): readonly Item[] {
-    if (!this.press) return [];
+    if (!this.press || this.press.is === "rectangle") return [];
     if (this.press.is === "things") return this.press.items;
     return "item" in this.press.grip ? [this.press.grip.item] : [];
   }
@@ -120,6 +123,11 @@ export class Hand {
       return true;
     }
     const found = tool.is === "select" ? seen(this.pickable(), ray) : undefined;
+    if (!found && add && tool.is === "select") {
+      // Without Shift or Ctrl the drag is the camera's.
+      this.press = { is: "rectangle", start: at, corner: at, height: 0, to: at, moved: false };
+      return true;
+    }
     if (!found) return false;
     const { path } = found.item;
     const already = chosen.includes(path);
@@ -135,7 +143,8 @@ export class Hand {
 
   private drag(press: Press, { ray, at }: Question): boolean {
     press.moved ||= Math.hypot(at.x - press.start.x, at.y - press.start.y) >= STILL;
-    press.to = onLevel(ray, press.height) ?? press.to;
+    if (press.is === "rectangle") press.corner = at;
+    else press.to = onLevel(ray, press.height) ?? press.to;
     return true;
   }
 
@@ -152,9 +161,23 @@ export class Hand {
     this.drag(press, question);
     this.press = undefined;
     const world = this.world();
+    if (press.is === "rectangle") return this.choose(press, question.spot);
     if (press.is === "grip") letGo(press.grip, press.moved, press.to, world);
     else if (press.moved) world.onMove(press.items, { from: press.from, to: press.to });
     else world.onChoose(press.click);
+    return true;
+  }
+
+  /** Chooses what lies within a rectangle, beside what is chosen. */
+  private choose({ start, corner, moved }: Press & { is: "rectangle" }, spot: Question["spot"]): true {
+    const { chosen, onChoose } = this.world();
+    const [x, y] = [[start.x, corner.x], [start.y, corner.y]];
+    const isIn = (item: Item) => {
+      const place = item.group === "route" ? undefined : placeOf(item);
+      const seenAt = place && spot([place.x, place.y, liftOf(item)]);
+      return !!seenAt && seenAt[0] >= Math.min(...x) && seenAt[0] <= Math.max(...x) && seenAt[1] >= Math.min(...y) && seenAt[1] <= Math.max(...y);
+    };
+    if (moved) onChoose([...new Set([...chosen, ...this.pickable().filter(isIn).map(({ path }) => path)])]);
     return true;
   }
 
@@ -226,6 +249,7 @@ export class Hand {
       knobs: this.press?.moved ? [] : this.grips().map(({ grip, point }) => [point.x, point.y, this.heightOf(grip)] as const),
       words: [...new Set([...over, ...mine, ...(names ? items : [])])].slice(0, MOST_NAMES).flatMap((item) => named(item, mine.includes(item))),
       told: toldOf(mine, over, this.press?.moved ? this.heldItems() : []),
+      rectangle: this.press?.is === "rectangle" && this.press.moved ? [this.press.start, this.press.corner] : undefined,
     };
   }
 
@@ -233,7 +257,7 @@ export class Hand {
   private picture(): Partial<Picture> {
     const { state, lanes, tool } = this.world();
     const { press, ground } = this;
-    if (press?.moved) {
+    if (press?.moved && press.is !== "rectangle") {
       if (press.is === "things") return draggedThings(state, press.items, { from: press.from, to: press.to }, lanes);
       return grippedThing(press.grip, press.to, state);
     }

@@ -3,7 +3,8 @@
 import { ActionIcon, Button, Checkbox, Group, Popover, ScrollArea, Text, TextInput } from "@mantine/core";
 import { useLocalStorage } from "@mantine/hooks";
 import { useState } from "react";
-import { type Arrangement, arranged, AS_IT_IS, moved, pinned, pinnedOf, toggled } from "../../model/arrangement";
+import { type Arrangement, arranged, AS_IT_IS, moved, pinned, pinnedOf, toggled, withoutChannel } from "../../model/arrangement";
+import { channelName } from "../../model/column";
 import type { Column } from "../../model/table";
 import { withUnit } from "../../model/units";
 import { Icon } from "../../ui/Icon";
@@ -23,7 +24,13 @@ interface Props {
   onArrange: (arrangement: Arrangement) => void;
 }
 
-export function ColumnMenu({ columns, arrangement, onArrange }: Props) {
+interface MenuProps extends Props {
+  /** Somebody wants a column that is not there yet. */
+  onAdd: () => void;
+}
+
+export function ColumnMenu({ columns, arrangement, onArrange, onAdd }: MenuProps) {
+  const [isOpen, setOpen] = useState(false);
   const [query, setQuery] = useState("");
   const hidden = arrangement.hidden.filter((id) => columns.some((column) => column.id === id)).length;
   const staying = pinnedOf(columns, arrangement);
@@ -32,9 +39,9 @@ export function ColumnMenu({ columns, arrangement, onArrange }: Props) {
     ({ id, title, name }) => id !== "run" && `${title} ${name}`.toLowerCase().includes(query.toLowerCase()),
   );
   return (
-    <Popover width={370} position="bottom-end" withArrow shadow="md" trapFocus>
+    <Popover opened={isOpen} onChange={setOpen} width={420} position="bottom-end" withArrow shadow="md" trapFocus>
       <Popover.Target>
-        <Button size="xs" variant="default" leftSection={<Icon name="columns" size={14} />}>
+        <Button size="xs" variant="default" leftSection={<Icon name="columns" size={14} />} onClick={() => setOpen(!isOpen)}>
           Columns{hidden ? ` (${hidden} hidden)` : ""}
         </Button>
       </Popover.Target>
@@ -52,7 +59,7 @@ export function ColumnMenu({ columns, arrangement, onArrange }: Props) {
             As it was
           </Button>
         </Group>
-        <ScrollArea h={320} type="auto">
+        <ScrollArea h={320} type="auto" offsetScrollbars>
           {shown.map((column) => (
             <Entry key={column.id} column={column} columns={columns} arrangement={arrangement} onArrange={onArrange} />
           ))}
@@ -62,6 +69,18 @@ export function ColumnMenu({ columns, arrangement, onArrange }: Props) {
             </Text>
           ) : null}
         </ScrollArea>
+        <Button
+          size="compact-xs"
+          variant="light"
+          mt={6}
+          leftSection={<Icon name="plus" size={12} />}
+          onClick={() => {
+            setOpen(false);
+            onAdd();
+          }}
+        >
+          Add a column: a channel's aggregate …
+        </Button>
       </Popover.Dropdown>
     </Popover>
   );
@@ -71,11 +90,13 @@ function Entry({ column, columns, arrangement, onArrange }: Props & { column: Co
   const move = (by: number) => onArrange(moved(arrangement, columns, column.id, by));
   const name = withUnit(column.title, column.unit);
   const isPinned = arrangement.pinned?.includes(column.id) === true;
+  const channel = channelName(column.id);
   return (
     <Group gap={4} wrap="nowrap" title={column.name}>
       <Checkbox
         size="xs"
         flex={1}
+        miw={0}
         label={name}
         checked={!arrangement.hidden.includes(column.id)}
         onChange={() => onArrange(toggled(arrangement, column.id))}
@@ -99,6 +120,11 @@ function Entry({ column, columns, arrangement, onArrange }: Props & { column: Co
       <ActionIcon variant="subtle" size={24} aria-label={`${name} to the right`} onClick={() => move(1)}>
         <Icon name="down" size={12} />
       </ActionIcon>
+      {channel === undefined ? null : (
+        <ActionIcon variant="subtle" size={24} aria-label={`Remove ${name}`} title="Remove the column" onClick={() => onArrange(withoutChannel(arrangement, channel))}>
+          <Icon name="close" size={12} />
+        </ActionIcon>
+      )}
     </Group>
   );
 }

@@ -4,8 +4,9 @@ import { Badge, Button, Group, Modal, SegmentedControl, Select, Switch, Text, Ti
 import { useQuery } from "@tanstack/react-query";
 import { useNavigate } from "@tanstack/react-router";
 import { useMemo, useState } from "react";
+import { useChannelColumns } from "../../api/columns";
 import { olderRuns, PAGE, runs } from "../../api/queries";
-import { arranged, pinned as withPin, pinnedOf } from "../../model/arrangement";
+import { arranged, pinned as withPin, pinnedOf, withChannel } from "../../model/arrangement";
 import { MOST } from "../../model/beside";
 import { pinsOf } from "../../model/pin";
 import { countBy, countByStatus, type ListedRun } from "../../model/run";
@@ -18,6 +19,7 @@ import { Icon } from "../../ui/Icon";
 import { Empty, Failure, Loading } from "../../ui/State";
 import { useShortcuts } from "../../ui/shortcut";
 import { Board } from "./Board";
+import { ChannelDialog } from "./ChannelForm";
 import { ColumnMenu, useArrangement } from "./ColumnMenu";
 import { useColumns } from "./columns";
 import { ExportMenu } from "./ExportMenu";
@@ -99,9 +101,10 @@ const WAYS = [
 const MOST_NAMED = 5000;
 
 /** The runs that are shown, as a file; all of them need not be named. */
-function Exports({ shown, isAll, scenario }: { shown: readonly ListedRun[]; isAll: boolean; scenario: string | undefined }) {
+function Exports({ shown, isAll, scenario, channels }: { shown: readonly ListedRun[]; isAll: boolean; scenario: string | undefined; channels: readonly string[] }) {
   const query = new URLSearchParams(scenario ? { scenario } : {});
   if (!isAll) query.set("runs", shown.map(({ run }) => run).join(","));
+  for (const name of channels) query.append("columns", name);
   const ways = ["csv", "parquet", "json"].map((form) => ({ label: form.toUpperCase(), href: `/api/table?format=${form}&${query}` }));
   return (
     <ExportMenu
@@ -112,6 +115,9 @@ function Exports({ shown, isAll, scenario }: { shown: readonly ListedRun[]; isAl
   );
 }
 
+/** Without columns of channels. */
+const NONE: readonly string[] = [];
+
 interface ListedProps extends Props {
   runs: readonly ListedRun[];
   /** Older ones are on their way. */
@@ -121,8 +127,10 @@ interface ListedProps extends Props {
 function Listed({ runs: all, isPart, view, onView }: ListedProps) {
   const { q = "", scenario, only, as = "table" } = view;
   const [selected, setSelected] = useState<ReadonlySet<number>>(new Set());
-  const every = useColumns(all);
   const { arrangement, arrange } = useArrangement();
+  const channels = useChannelColumns(arrangement.channels ?? NONE, all);
+  const every = useColumns(all, channels.columns);
+  const [isAdding, setAdding] = useState(false);
   const columns = useMemo(() => arranged(every, arrangement), [every, arrangement]);
   const fixed = useMemo(() => pinnedOf(columns, arrangement), [columns, arrangement]);
   const filter = useMemo(() => filterOf(q, columns, textOf), [q, columns]);
@@ -189,13 +197,15 @@ function Listed({ runs: all, isPart, view, onView }: ListedProps) {
             />
           ) : null}
           {as === "table" || as === "space" ? <GroupSelect columns={every} by={view.by} onBy={(by) => onView({ ...view, by })} /> : null}
-          {as === "table" || as === "space" ? <ColumnMenu columns={every} arrangement={arrangement} onArrange={arrange} /> : null}
+          {as === "table" || as === "space" ? <ColumnMenu columns={every} arrangement={arrangement} onArrange={arrange} onAdd={() => setAdding(true)} /> : null}
           <FilterField text={q} wrong={filter.wrong} columns={columns} onText={(next) => onView({ ...view, q: next || undefined })} />
-          <Exports shown={shown} isAll={shown.length === all.length} scenario={scenario} />
+          <Exports shown={shown} isAll={shown.length === all.length} scenario={scenario} channels={arrangement.channels ?? NONE} />
           {as === "table" ? <PinButton selected={selected} pinned={pinned} onPins={onPins} /> : null}
           <CompareButton selected={selected} />
         </Group>
       </Group>
+      {channels.refused ? <Failure error={channels.refused} onRetry={channels.retry} /> : null}
+      <ChannelDialog isOpen={isAdding} onClose={() => setAdding(false)} runs={all} onAdd={(name) => arrange(withChannel(arrangement, name))} />
       <Many runs={all} selected={selected} onClear={() => setSelected(new Set())} />
       {as === "space" ? (
         <Space

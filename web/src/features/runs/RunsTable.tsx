@@ -34,7 +34,7 @@ const ROW_HEIGHT = 33;
 /** These say what a row is, so they stay even when all rows agree. */
 const ALWAYS = new Set(["run", "status", "verdict", "created"]);
 
-const GROUP_TITLES = { pinned: "Pinned", run: "Run", parameters: "Parameters that some run has set", metrics: "Metrics" };
+const GROUP_TITLES = { pinned: "Pinned", run: "Run", parameters: "Parameters that some run has set", metrics: "Metrics", channels: "Recorded channels" };
 
 const features = tableFeatures({ rowSortingFeature, columnVisibilityFeature });
 
@@ -277,7 +277,7 @@ function Gap({ height, width }: { height: number; width: number }) {
 
 function grouped(columns: readonly Column[], fixed: readonly Column[]): ColumnDef<typeof features, ListedRun>[] {
   const staying = fixed.length > 0 ? [...columns.filter(({ id }) => id === "run"), ...fixed] : [];
-  const groups = (["pinned", "run", "parameters", "metrics"] as const).map((group) => ({
+  const groups = (["pinned", "run", "parameters", "metrics", "channels"] as const).map((group) => ({
     id: group,
     header: GROUP_TITLES[group],
     columns: (group === "pinned" ? staying : columns.filter((column) => column.group === group && !staying.includes(column)))
@@ -297,7 +297,7 @@ function visibility(
   hidden: readonly string[],
   fixed: readonly Column[],
 ): Record<string, boolean> {
-  const isAsked = ({ id }: Column) => ALWAYS.has(id) || fixed.some((each) => each.id === id);
+  const isAsked = ({ id, group }: Column) => ALWAYS.has(id) || group === "channels" || fixed.some((each) => each.id === id);
   return Object.fromEntries(
     columns.map((column) => [
       column.id,
@@ -516,10 +516,20 @@ function Cell({ column, run, isBase, isPinned }: { column: Column; run: ListedRu
     case "sim_time":
       return run.sim_time_s === null ? "–" : formatNumber(Number(run.sim_time_s.toFixed(2)));
     default:
-      if (value === null || value === undefined) return <span className={classes.none}>–</span>;
+      if (value === null || value === undefined) return <Lack {...column.lack?.(run)} />;
       if (isUnranked(column, run)) return <Early run={run} value={value} />;
       return column.isSet?.(run) === false ? <Default value={value} /> : formatValue(value);
   }
+}
+
+/** Where there is no value: why, if that is known. */
+function Lack({ text = "–", why }: { text?: string; why?: string }) {
+  return (
+    <span className={classes.none} title={why}>
+      {text}
+      {why ? <VisuallyHidden> {why}</VisuallyHidden> : null}
+    </span>
+  );
 }
 
 /** What was measured of a run that ended early stands there, but with no place among the others. */

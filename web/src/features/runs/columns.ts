@@ -6,8 +6,9 @@ import { useUnits } from "../../api/units";
 import type { ListedRun } from "../../model/run";
 import { type Column, metricColumns, parameterColumns, RUN_COLUMNS } from "../../model/table";
 
-export function useColumns(all: readonly ListedRun[]): Column[] {
+export function useColumns(all: readonly ListedRun[], ofChannels: readonly Column[]): Column[] {
   const units = useUnits(all);
   const known = useGlossary().metrics;
-  return useMemo(() => [...RUN_COLUMNS, ...parameterColumns(all, units), ...metricColumns(all, known)], [all, units, known]);
+  const own = useMemo(() => [...RUN_COLUMNS, ...parameterColumns(all, units), ...metricColumns(all, known)], [all, units, known]);
+  return useMemo(() => [...own, ...ofChannels], [own, ofChannels]);
 }

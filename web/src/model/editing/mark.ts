@@ -20,4 +20,6 @@ export interface Marks {
   knobs: Place[];
   words: { at: Place; text: string; strong: boolean }[];
   told: string;
+  /** Two corners of a rectangle that is being drawn on the frame [px]. */
+  rectangle?: readonly [Point, Point] | undefined;
 }
