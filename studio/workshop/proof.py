@@ -11,7 +11,7 @@ unknown, and nothing is said about it.
 import ast
 import builtins
 from collections.abc import Iterable, Iterator
-from typing import NamedTuple, TypeGuard
+from typing import NamedTuple
 
 from studio.application.port import DONE, MOST, SEEN
 from studio.errors import nearest
@@ -86,16 +86,17 @@ def parts(module: ast.Module) -> Iterator[Slip]:
         if not need.optional and need.name not in given:
             yield Slip(1, 1, f"{need.name} is missing: {need.meaning}", f"write {need.example}")
     for each in module.body:
-        if is_of_another_sort(each):
-            yield at(each, f"KIND says {each.value.value!r}, and this is written as an application", 'write KIND = "application"')
+        if sort := another_sort(each):
+            yield at(each, f"KIND says {sort!r}, and this is written as an application", 'write KIND = "application"')
         if isinstance(each, ast.FunctionDef) and each.name == "decide" and len(each.args.args) != 3:
             yield at(each, "decide is called with (parameters, memory, sees)", "give it these three arguments")
 
 
-def is_of_another_sort(node: ast.stmt) -> TypeGuard[ast.Assign]:
-    """Whether it says of what sort the kind is, and not an application."""
+def another_sort(node: ast.stmt) -> object:
+    """The sort that it says the kind is of, where it says one and not an application."""
     says = isinstance(node, ast.Assign) and any(isinstance(each, ast.Name) and each.id == "KIND" for each in node.targets)
-    return says and isinstance(node.value, ast.Constant) and node.value.value != "application"
+    value = node.value if says and isinstance(node, ast.Assign) else None
+    return value.value if isinstance(value, ast.Constant) and value.value != "application" else None
 
 
 def defined(body: Iterable[ast.stmt]) -> Iterator[str]:

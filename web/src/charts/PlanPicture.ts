@@ -23,7 +23,7 @@ import {
   type View,
   zoomed,
 } from "../model/view";
-import { Fingers } from "../ui/finger";
+import { Fingers } from "./finger";
 import { type Ground, outsideColour, paint } from "./ground";
 import { paintMarks } from "./marks";
 

@@ -11,7 +11,7 @@ import { type Lane, onLane } from "../../model/editing/snap";
 import type { Plan } from "../../model/map";
 import { type Bounds, dragged, fitted, pinched, type Point, scaleBar, type Size, toGround, toScreen, type View, zoomed } from "../../model/view";
 import { useDark } from "../../ui/dark";
-import { Fingers, TREMBLE } from "../../ui/finger";
+import { Fingers, TREMBLE } from "../../charts/finger";
 import type { Board, Picture } from "./Board";
 import classes from "./Edit.module.css";
 import { draggedThings, type Grip, ghostFor, gripsOf, grippedThing, type Held, letGo, nearest, type Tool } from "./grip";
