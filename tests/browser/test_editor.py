@@ -301,6 +301,21 @@ def test_two_browsers_see_what_each_other_does(page, path, opened):
     other.close()
 
 
+def test_what_somebody_else_deletes_is_brought_back_with_its_steps(page, path, opened):
+    row(page, "close").click()
+    page.get_by_role("application").focus()
+    page.keyboard.press("Delete")
+    done(page, "Delete close")
+    opened[1].delete(f"/api/scenarios/{ID}").raise_for_status()
+    told = page.get_by_role("status").filter(has_text="There is no scenario")
+    expect(told).to_contain_text("was deleted; bring it back from the trash")
+    page.get_by_role("button", name="Bring it back").click()
+    expect(told).to_have_count(0)
+    assert path.exists()
+    page.get_by_role("button", name="Undo: Delete close").click()
+    expect(row(page, "close")).to_be_visible()
+
+
 def test_the_menu_behind_the_right_button_and_the_way_to_the_studio(page, path):
     page.mouse.click(*spot(page, "script.cyclist"), button="right")
     page.get_by_role("menu", name="What to do with cyclist").get_by_role("menuitem", name="Delete").click()
@@ -438,7 +453,7 @@ def test_applications_goals_and_sensors_are_added_and_taken_out(page, path):
     expect(part.get_by_role("button", name="Take acc out")).to_be_visible()
     assert document(path)["applications"]["acc"]["application"] == "acc"
     goals = page.get_by_role("region", name="Goals: add and take out")
-    goals.get_by_placeholder("a measure").fill("Least time to")
+    goals.get_by_placeholder("a measure").fill("min_ttc")  # a title is as good as a name
     page.get_by_role("option", name="Least time to collision", exact=True).click()
     goals.get_by_label("Value of the goal").fill("1.5")
     expect(goals).to_contain_text("s")

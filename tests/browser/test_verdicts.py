@@ -72,6 +72,9 @@ def test_3_a_run_is_decided_and_named_on_its_page(page, studio):
     expect(save).to_be_disabled()  # nothing is left to be saved
     told = studio[2].get("/api/runs/2").json()
     assert (told["name"], told["tags"], told["note"]) == ("hard brake", ["wet", "night"], "At 0.1 s.")
+    elsewhere = {"verdict": "discarded", "reason": "seen by somebody else, too"}
+    studio[2].post("/api/runs/2/verdicts", json=elsewhere).raise_for_status()
+    expect(page.get_by_role("list", name="Verdicts so far")).to_contain_text("seen by somebody else, too")
 
 
 def test_4_the_table_shows_only_what_is_wanted(page, studio):

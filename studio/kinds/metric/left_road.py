@@ -1,4 +1,7 @@
-"""Times that a vehicle left the lanes of its direction with its centre of gravity, to either side, traffic included."""
+"""Times that a vehicle left the lanes of its direction with its centre of gravity, to either side, traffic included.
+
+Who is driven into a space beside them, to park, has left them, too.
+"""
 
 from studio.assess.census import number_of
 

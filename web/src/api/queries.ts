@@ -134,7 +134,8 @@ export const run = (number: number) =>
   queryOptions({
     queryKey: ["run", number],
     queryFn: () => answer(client.GET("/api/runs/{run}", { params: { path: { run: number } } })) as Promise<RunDetail>,
-    refetchInterval: ({ state }) => (isLive(state.data?.status) ? 2000 : false),
+    // Of one that is over somebody may say what he decided, or give it a tag.
+    refetchInterval: ({ state }) => (isLive(state.data?.status) ? 2000 : 5000),
   });
 
 interface Seen {

@@ -18,7 +18,7 @@ interface Props {
 
 export function DataTable({ title, unit, rightUnit, lines, data, span, onClose }: Props) {
   const { rows, of } = tableOf(data, span);
-  const some = rows.length === of ? `${of} samples` : `${rows.length} of ${of} samples, evenly taken; a shorter stretch has more of its own`;
+  const some = rows.length === of ? `The ${of} points that the chart has` : `${rows.length} of the ${of} points that the chart has; a shorter stretch has more of its own, a file under Export all of them`;
   const heads = lines.map(({ label, right }) => `${label} [${unitText(right ? (rightUnit ?? "") : unit) || "1"}]`);
   return (
     <Sheet

@@ -1,10 +1,13 @@
 /** What is edited, what can be undone, who else edits, and where one goes from here. */
 
 import { ActionIcon, Badge, Button, Menu, Text, Title, Tooltip } from "@mantine/core";
+import { useQuery } from "@tanstack/react-query";
 import { Link } from "@tanstack/react-router";
 import type { useNews } from "../../api/editing";
+import { trash, useRestore } from "../../api/scenarios";
 import type { Editing, Step } from "../../model/editing/item";
 import { Icon } from "../../ui/Icon";
+import { notifyError } from "../../ui/notify";
 import classes from "./Edit.module.css";
 
 interface Props {
@@ -28,6 +31,7 @@ export function Head({ state, news, onUndo, onRedo }: Props) {
       <Text size="xs" c={news.gone ? "red" : "dimmed"} role="status" className={classes.status}>
         {saying(state, news)}
       </Text>
+      {news.gone ? <Back scenario={state.scenario} /> : null}
       <Button size="xs" component={Link} to="/studio/$scenario" params={params} search={{} as never} leftSection={<Icon name="run" size={14} />}>
         Open in the studio
       </Button>
@@ -38,8 +42,20 @@ export function Head({ state, news, onUndo, onRedo }: Props) {
   );
 }
 
+/** The way back of a scenario that somebody has deleted meanwhile, with its steps. */
+function Back({ scenario }: { scenario: string }) {
+  const entry = useQuery({ ...trash, refetchInterval: 2000 }).data?.find((each) => each.scenario === scenario);
+  const restore = useRestore();
+  if (!entry) return null;
+  return (
+    <Button size="xs" variant="default" loading={restore.isPending} onClick={() => restore.mutate({ entry: entry.id }, { onError: notifyError })}>
+      Bring it back
+    </Button>
+  );
+}
+
 function saying(state: Editing, { connected, by, gone }: Props["news"]): string {
-  if (gone) return [gone.message, ...gone.problems.map(({ what, remedy }) => [what, remedy].filter(Boolean).join(": "))].join(" ");
+  if (gone) return [gone.message, ...gone.problems.map(({ where, what, remedy }) => `${where}: ${[what, remedy].filter(Boolean).join("; ")}.`)].join(" ");
   if (!connected) return "The server does not answer. What was saved is safe; nothing more can be saved until it answers, and it is asked again and again.";
   if (state.sealed) return "Read only";
   if (by && by.revision === state.revision) return `“${by.name}” by ${by.who || "another program"}`;

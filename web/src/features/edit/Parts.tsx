@@ -10,6 +10,7 @@ import type { Tree } from "../../model/run";
 import { unitText } from "../../model/units";
 import type { Point } from "../../model/view";
 import { Icon } from "../../ui/Icon";
+import { byTitleOrName } from "../../ui/named";
 import { NumberEntry } from "../../ui/NumberEntry";
 import classes from "./Edit.module.css";
 
@@ -82,6 +83,7 @@ function Goals({ state, kinds, onDeed }: Props) {
         placeholder="a measure"
         searchable
         nothingFoundMessage="No measure is called that."
+        filter={byTitleOrName}
         data={kindsOf(kinds, "metric").filter((each) => !there.includes(each.value))}
         value={measure}
         onChange={setMeasure}
@@ -147,7 +149,7 @@ function Adder({ label, data, onAdd }: AdderProps) {
   const [chosen, setChosen] = useState<string | null>(null);
   return (
     <Group gap={6} align="end" wrap="nowrap">
-      <Select className={classes.grows} size="xs" label={label} placeholder="choose" searchable nothingFoundMessage="No kind is called that." data={data} value={chosen} onChange={setChosen} />
+      <Select className={classes.grows} size="xs" label={label} placeholder="choose" searchable nothingFoundMessage="No kind is called that." filter={byTitleOrName} data={data} value={chosen} onChange={setChosen} />
       <Button
         size="xs"
         variant="default"
