@@ -68,13 +68,17 @@ def test_the_sample_to_learn_with_has_its_truth_within_what_is_told(tmp_path):
     assert abs(found.value - sample.TRUTH) < 2.0 * found.spread < 0.002
 
 
-def test_a_range_without_what_the_car_has_is_told(ground):
+def test_a_range_without_what_the_car_has_is_told(project):
     """What it had, and how well that followed, are the car's own, wherever the search began."""
     path, value = "tyres.front_cornering", catalogue.find_vehicle(CAR).values.tyres.front_cornering
-    wide, narrow = (
-        calibration.calibrate(load(ground.project(calibration={"lateral": {"parameters": {path: allowed}}})), "lateral")
-        for allowed in ({"low": 0.5, "high": 1.6}, {"low": value + 0.1, "high": value + 0.3})
-    )
+    other = project.with_name("other.yaml")
+
+    def calibrated(low, high):
+        document = yaml.safe_load(project.read_text()) | {"calibration": {"lateral": {"parameters": {path: {"low": low, "high": high}}}}}
+        other.write_text(yaml.safe_dump(document))
+        return calibration.calibrate(load(other), "lateral")
+
+    wide, narrow = calibrated(0.5, 1.6), calibrated(value + 0.1, value + 0.3)
     assert narrow.estimates[0].start == pytest.approx(value) == wide.estimates[0].start
     assert {name: before for name, (before, _) in narrow.misfit.items()} == pytest.approx(
         {name: before for name, (before, _) in wide.misfit.items()}
