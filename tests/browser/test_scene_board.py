@@ -2,7 +2,7 @@
 
 import re
 import shutil
-from math import cos, sin
+from math import cos, hypot, sin
 
 import pytest
 import yaml
@@ -49,8 +49,11 @@ class Board:
     def on_screen(self, ahead=0.0, left=0.0, height=0.7):
         """Where a place beside the car is on the screen [px], by metres ahead of it and to its left."""
         c, s = cos(self.car["heading"]), sin(self.car["heading"])
-        at = [self.car["x"] + ahead * c - left * s, self.car["y"] + ahead * s + left * c, height]
-        x, y, _ = self.frame.evaluate(SPOT, at)
+        return self.of(self.car["x"] + ahead * c - left * s, self.car["y"] + ahead * s + left * c, height)
+
+    def of(self, x, y, height=0.0):
+        """Where a place on the map is on the screen [px], as the page is laid out now."""
+        x, y, _ = self.frame.evaluate(SPOT, [x, y, height])
         box = self.page.locator("iframe[title='3D scene']").bounding_box()
         return box["x"] + x, box["y"] + y
 
@@ -71,6 +74,9 @@ class Board:
     def done(self, name):
         """Until a step is the last."""
         expect(self.page.get_by_role("button", name=f"Undo: {name}")).to_be_enabled()
+
+    def corners(self):
+        return yaml.safe_load(self.path.read_text())["script"]["area"]["when"]["area"]["corners"]
 
     def along(self):
         return yaml.safe_load(self.path.read_text())["vehicles"]["first"]["position"]["along"]
@@ -181,6 +187,35 @@ def test_the_menu_behind_the_right_button(board):
     page.mouse.click(*board.on_screen(), button="right")
     expect(page.get_by_role("menu", name="What to do with first")).to_be_visible()
     page.keyboard.press("Escape")
+
+
+def test_an_area_is_drawn_and_reshaped(board):
+    """Its corners are clicked one after the other, faster than the page is drawn."""
+    page = board.page
+    board.look()
+    page.get_by_role("button", name="Add", exact=True).click()
+    page.get_by_role("menuitem", name="Area with a trigger", exact=True).click()
+    places = [board.on_screen(ahead, left, 0.0) for ahead, left in ((3.0, -6.0), (9.0, -6.0), (9.0, -10.0))]
+    for place in places:
+        page.mouse.click(*place)
+    page.keyboard.press("Enter")
+    board.done("Add area")
+    before = board.corners()
+    assert len(before) == 3
+    expect(board.marks).to_have_attribute("aria-label", re.compile("chosen area"))
+    x, y = before[0]
+    page.mouse.move(*board.of(x, y))
+    page.mouse.down()
+    page.mouse.move(*board.of(x + 1.5, y))
+    page.mouse.move(*board.of(x + 3.0, y))
+    page.mouse.up()
+    board.done("Reshape area")
+    after = board.corners()
+    assert after[1:] == before[1:]
+    assert hypot(after[0][0] - before[0][0], after[0][1] - before[0][1]) == pytest.approx(3.0, abs=0.3)
+    for name in ("Reshape area", "Add area"):
+        page.keyboard.press("Control+z")
+        expect(page.get_by_role("button", name=f"Redo: {name}")).to_be_enabled()
 
 
 def test_the_scene_rests(board):

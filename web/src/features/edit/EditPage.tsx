@@ -197,7 +197,10 @@ function useEditor(id: string, state: Editing, plan: Plan, { wanted, choose }: {
   const looker = useRef<Looker>(null);
   const lanes: Lane[] = useMemo(() => strips(plan.lanes.filter(({ internal, open }) => !internal && open)), [plan]);
   const [veil, setVeil] = useLocalStorage<Veil>({ key: `veil ${id}`, defaultValue: OPEN, getInitialValueInEffect: false });
-  const [tool, setTool] = useState<Tool>(SELECT);
+  const [tool, showTool] = useState<Tool>(SELECT);
+  // On a busy machine clicks come faster than the page is drawn: each goes on from what the last one left, not from what was drawn last.
+  const held = useRef<Tool>(SELECT);
+  const setTool = (next: Tool) => showTool((held.current = next));
   const chosen = present(wanted, state.items);
   const items = useMemo(() => state.items.filter(({ path }) => !veil.hidden.includes(path)), [state.items, veil.hidden]);
   const mine = state.items.filter(({ path }) => chosen.includes(path));
@@ -253,6 +256,7 @@ function useEditor(id: string, state: Editing, plan: Plan, { wanted, choose }: {
   };
 
   const point = (to: Point) => {
+    const tool = held.current;
     if (tool.is === "measure") return setTool({ ...tool, points: [...tool.points, to] });
     if (tool.is === "area" || tool.is === "walls") return setTool({ ...tool, corners: [...tool.corners, to] });
     if (tool.is === "route") return extend(tool.route, to);
@@ -331,6 +335,7 @@ function useEditor(id: string, state: Editing, plan: Plan, { wanted, choose }: {
   };
 
   const enough = () => {
+    const tool = held.current;
     if (tool.is === "area" && tool.corners.length > 2) {
       const corners = tool.corners.filter((each, at, all) => at === 0 || Math.hypot(each.x - (all[at - 1]?.x ?? 0), each.y - (all[at - 1]?.y ?? 0)) > 0.2);
       perform((now) => one(deeds.area(now, corners)));
@@ -341,6 +346,7 @@ function useEditor(id: string, state: Editing, plan: Plan, { wanted, choose }: {
 
   /** Takes the last point back, or leaves the tool. */
   const back = () => {
+    const tool = held.current;
     if ((tool.is === "area" || tool.is === "walls") && tool.corners.length > 0) return setTool({ ...tool, corners: tool.corners.slice(0, -1) });
     if (tool.is === "measure" && tool.points.length > 0) return setTool({ ...tool, points: tool.points.slice(0, -1) });
     setTool(SELECT);
@@ -358,6 +364,7 @@ function useEditor(id: string, state: Editing, plan: Plan, { wanted, choose }: {
     perform({ name: `Delete ${named(paths)}`, remove: paths });
   };
   const turning = (way: "undo" | "redo") => () => {
+    const tool = held.current;
     if ((tool.is === "area" || tool.is === "walls") && tool.corners.length > 0 && way === "undo") return back();
     if ((way === "undo" ? state.done : state.undone).length === 0) return;
     (way === "undo" ? undo : redo).mutate(undefined, { onError: notifyError });
